@@ -1,0 +1,38 @@
+#pragma once
+#include <mpi.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cablenet/network/network.hpp"
+#include "cablenet/partition/partition.hpp"
+#include "cablenet/scene/scene.hpp"
+#include "cablenet/solve/dynamics.hpp"
+
+/// run.yaml: what was solved and how.
+namespace cablenet::app {
+
+struct Report {
+  std::string status;    ///< finished | stopped | failed
+  std::string message;   ///< why, if not finished
+  double reached = 0;    ///< simulated time [s]
+  std::string scheme;
+  std::string linear_solver;
+  solve::Counts counts;
+  std::vector<std::pair<std::string, double>> seconds;   ///< wall time by phase
+};
+
+/// 128-bit XXH3 of the scene's text, in hexadecimal.
+std::string scene_hash(const scene::Scene& scene);
+
+/// "12 nodes, 11 elements, ..." for the terminal.
+std::string describe(const scene::Scene& scene, const network::Network& network);
+
+/// Writes `path` by tmp + rename on rank 0.  Collective.
+/// @throws OutputError on every rank alike.
+void write_report(const std::filesystem::path& path, const scene::Scene& scene, const network::Network& network,
+                  const partition::Partition& partition, const Report& report, MPI_Comm communicator);
+
+}   // namespace cablenet::app

@@ -1,0 +1,10 @@
+#pragma once
+#include <Eigen/Core>
+
+/// The project's small fixed-size types.
+namespace cablenet {
+
+using Vector3 = Eigen::Vector3d;
+using Matrix3 = Eigen::Matrix3d;
+
+}   // namespace cablenet

@@ -1,0 +1,54 @@
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "cablenet/base/linear_algebra.hpp"
+#include "cablenet/elements/cable.hpp"
+#include "cablenet/scene/motion.hpp"
+
+/// The whole discretised network in the scene's own numbering: points first, then the nets' nodes, then each cable's
+/// inner nodes from end to end.  The same on every rank; immutable once built.
+namespace cablenet::network {
+
+struct Element {
+  std::array<int, 2> node;
+  int material;    ///< index into Network::materials
+  double length;   ///< unstretched [m]
+};
+
+/// Point mass and constant force at a node.
+struct PointLoad {
+  int node;
+  double mass;     ///< [kg]
+  Vector3 force;   ///< [N]
+};
+
+struct PrescribedNode {
+  int node;
+  scene::Motion motion;
+};
+
+/// A cable's or a net's elements: [first_element, first_element + elements).
+struct Span {
+  std::string name;
+  int first_element;
+  int elements;
+};
+
+struct Network {
+  std::vector<Vector3> position;   ///< at the start [m]
+  std::vector<Vector3> velocity;   ///< at the start [m/s]
+  std::vector<Element> elements;   ///< cable after cable from end to end, then net after net
+  std::vector<elements::CableMaterial> materials;
+  std::vector<PointLoad> loads;
+  std::vector<PrescribedNode> prescribed;   ///< held or moved nodes: no unknowns
+  std::vector<Span> spans;                  ///< the scene's cables, then its nets
+  std::vector<int> point_node;              ///< per scene point
+  double gravity = 0;                       ///< [m/s^2] along -z
+
+  /// "cable `trunk`, element 3 of 24": for messages.
+  std::string element_name(int element) const;
+};
+
+}   // namespace cablenet::network

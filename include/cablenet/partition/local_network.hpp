@@ -1,0 +1,50 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "cablenet/network/network.hpp"
+#include "cablenet/partition/partition.hpp"
+
+/// This rank's share of the network.  Local nodes are numbered: owned free nodes in solver order, ghosts (free nodes of
+/// other ranks at this rank's elements), prescribed nodes at this rank's elements.
+namespace cablenet::partition {
+
+struct LocalElement {
+  std::array<int, 2> node;   ///< local
+  int material;
+  double length;   ///< unstretched [m]
+};
+
+struct LocalPrescribed {
+  int node;   ///< local
+  scene::Motion motion;
+};
+
+struct LocalNetwork {
+  int owned = 0;
+  int ghosts = 0;
+  int nodes = 0;                   ///< owned + ghosts + prescribed
+  int first_number = 0;            ///< solver number of the first owned node
+  int free_nodes = 0;              ///< on all ranks together
+  std::vector<int> ghost_number;   ///< solver numbers of the ghosts
+  std::vector<int> scene_node;     ///< per local node
+  std::vector<bool> primary;       ///< per local node: this rank speaks for it
+  std::vector<LocalElement> elements;
+  std::vector<int> scene_element;          ///< per local element
+  std::vector<network::PointLoad> loads;   ///< at nodes that this rank speaks for; node is local
+  std::vector<LocalPrescribed> prescribed;
+  std::vector<elements::CableMaterial> materials;
+  double gravity = 0;              ///< [m/s^2] along -z
+  std::vector<Vector3> position;   ///< per local node, at the start [m]
+  std::vector<Vector3> velocity;   ///< per local node, at the start [m/s]
+
+  bool is_free(int local_node) const { return local_node < owned + ghosts; }
+  /// Solver number of a free local node.
+  int number(int local_node) const {
+    return local_node < owned ? first_number + local_node : ghost_number[static_cast<std::size_t>(local_node - owned)];
+  }
+};
+
+LocalNetwork make_local_network(const network::Network& network, const Partition& partition, int rank);
+
+}   // namespace cablenet::partition

@@ -1,0 +1,40 @@
+#pragma once
+#include <petscsys.h>
+
+#include <source_location>
+#include <stdexcept>
+#include <utility>
+
+/// The one seam to PETSc: error codes become exceptions, objects are owned.
+namespace cablenet::petsc {
+
+/// A PETSc call failed: a bug or a resource that ran out; main does not catch it.
+struct Failure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// @throws Failure with PETSc's text and the caller's file:line if code is an error.
+void check(int code, std::source_location where = std::source_location::current());
+
+/// Move-only owner of one PETSc object.
+template <class T, auto Destroy>
+class Handle {
+public:
+  Handle() = default;
+  Handle(Handle&& other) noexcept : object_(std::exchange(other.object_, nullptr)) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(object_, other.object_);
+    return *this;
+  }
+  ~Handle() {
+    if (object_ != nullptr) Destroy(&object_);
+  }
+  operator T() const { return object_; }
+  /// For PETSc's create functions.
+  T* out() { return &object_; }
+
+private:
+  T object_ = nullptr;
+};
+
+}   // namespace cablenet::petsc

@@ -1,0 +1,112 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "cablenet/base/linear_algebra.hpp"
+#include "cablenet/scene/motion.hpp"
+
+/// What the user asked for, as plain data in SI units; `repeat` is expanded, names are resolved to indices.
+/// scene/read.hpp makes it from a file.
+namespace cablenet::scene {
+
+struct CableType {
+  std::string name;
+  double mass_per_length = 0;      ///< of unstretched cable [kg/m], > 0
+  double axial_stiffness = 0;      ///< EA [N], > 0
+  bool tension_only = false;       ///< a slack element carries nothing
+  double axial_damping = 0;        ///< force per strain rate [N s]
+  double rayleigh_mass = 0;        ///< [1/s]
+  double rayleigh_stiffness = 0;   ///< [s]
+};
+
+struct Point {
+  std::string name;
+  std::string where;                    ///< "file:line" for messages
+  Vector3 position = Vector3::Zero();   ///< drawn [m]; a prescribed point is where its motion says
+  Vector3 velocity = Vector3::Zero();   ///< [m/s]
+  double mass = 0;                      ///< [kg]
+  Vector3 force = Vector3::Zero();      ///< constant [N], world frame
+  std::optional<Motion> motion;         ///< none: the point is free
+};
+
+struct PointEnd {
+  int point;   ///< index into Scene::points
+};
+struct TapEnd {
+  int cable;   ///< index into Scene::cables
+  double at;   ///< unstretched arc length from that cable's `from` [m]
+};
+struct NetEnd {
+  int net;                   ///< index into Scene::nets
+  std::array<int, 2> node;   ///< 0..meshes along the first and second edge
+};
+using CableEnd = std::variant<PointEnd, TapEnd, NetEnd>;
+
+enum class Shape { straight, catenary, polyline };
+
+struct Cable {
+  std::string name;
+  std::string where;   ///< "file:line" for messages
+  int type = 0;        ///< index into Scene::cable_types
+  CableEnd from = PointEnd{0};
+  CableEnd to = PointEnd{0};
+  std::optional<double> length;   ///< unstretched [m]; none: the distance between the drawn ends
+  int elements = 0;
+  Shape shape = Shape::straight;
+  std::vector<Vector3> polyline;        ///< when shape is polyline, from end to end
+  std::vector<Vector3> node_velocity;   ///< empty, or one per node
+};
+
+enum class Edge { top, right, bottom, left };
+
+struct Net {
+  std::string name;
+  std::string where;   ///< "file:line" for messages
+  int type = 0;
+  std::array<Vector3, 4> corners;   ///< in order round the panel; top joins corners 0 and 1, right 1 and 2, ...
+  std::array<int, 2> meshes{};      ///< along the first edge (corners 0-1) and the second (1-2)
+  double slack = 1;                 ///< unstretched length / drawn length
+  std::vector<Edge> fixed;
+};
+
+enum class Scheme { energy_momentum, generalized_alpha, plain };
+
+struct Time {
+  double start = 0;
+  double end = 0;
+  double step = 0;
+  Scheme scheme = Scheme::energy_momentum;
+  double spectral_radius = 1;     ///< meant for generalized_alpha and plain; 1 for energy_momentum
+  double axial_dissipation = 0;   ///< xi of energy_momentum: 0 where the scene names the scheme, else 0.05
+};
+
+enum class HistoryKind { point, cable };
+
+struct HistoryItem {
+  HistoryKind kind;
+  int index;   ///< into Scene::points or Scene::cables
+};
+
+struct Output {
+  double interval = 0;   ///< s between frames; 0: every step
+  std::vector<HistoryItem> history;
+  bool energy = false;
+};
+
+struct Scene {
+  std::string file;
+  std::string text;   ///< the file as read
+  std::string title;
+  double gravity = 9.80665;   ///< [m/s^2] along -z
+  std::vector<CableType> cable_types;
+  std::vector<Point> points;
+  std::vector<Cable> cables;
+  std::vector<Net> nets;
+  Time time;
+  Output output;
+};
+
+}   // namespace cablenet::scene

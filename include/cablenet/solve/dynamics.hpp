@@ -1,0 +1,99 @@
+#pragma once
+#include <petscts.h>
+
+#include <functional>
+#include <string>
+
+#include "cablenet/scene/scene.hpp"
+#include "cablenet/solve/schedule.hpp"
+#include "cablenet/system/assembler.hpp"
+
+/// A run through time with PETSc's TSALPHA2.  Tests: tests/parallel/dynamics_test.cpp, tests/verification
+namespace cablenet::solve {
+
+using TimeStepper = petsc::Handle<TS, TSDestroy>;
+
+/// An instant of a run: handed to observers.
+struct Instant {
+  double t;   ///< [s]
+  long step;
+  Vec x;   ///< positions of the free nodes [m]
+  Vec v;   ///< [m/s]
+  Vec a;   ///< over the last step, (v1 - v0)/dt where the scheme's own alternates; at the start: exact [m/s^2]
+};
+
+struct Counts {
+  long steps = 0;
+  long rejected = 0;
+  long newton = 0;
+  long linear = 0;
+};
+
+enum class Verdict {
+  finished,   ///< the scene's end was reached
+  stopped,    ///< by -ts_max_steps or -ts_max_time
+  failed      ///< Newton failed down to the smallest step
+};
+
+struct Observers {
+  /// At the start, at every output time, and at the last good state.  Collective.
+  std::function<void(const Instant&)> output;
+  /// After every step.  Collective.
+  std::function<void(double t, double dt, const Counts&)> step;
+};
+
+/// All member functions are collective.
+class Dynamics {
+public:
+  /// Reads the options database (-ts_*, -snes_*, -ksp_*, -pc_*).
+  Dynamics(system::Assembler& assembler, const scene::Time& time, double output_interval);
+
+  Verdict run(const Observers& observers);
+
+  const Counts& counts() const { return counts_; }
+  std::string linear_solver() const;
+  /// Why the last attempt failed, e.g. "Newton's method did not converge (DIVERGED_MAX_IT)".
+  const std::string& failure() const { return failure_; }
+  /// Scene number of the element (on any rank) where the failed attempt's residual was worst or undefined.
+  int failed_element();
+
+private:
+  void create_stepper();
+  void solve_initial_acceleration();
+  bool step(double dt);
+  void update_acceleration(double dt);
+  bool in_start_phase() const;
+  double rounding() const;
+  system::Stage stage() const;
+  Instant instant() const;
+  void explain_failure();
+  void choose_line_search(bool retry);
+
+  static PetscErrorCode residual(TS, PetscReal t, Vec x, Vec v, Vec a, Vec r, void* self) noexcept;
+  static PetscErrorCode jacobian(TS, PetscReal t, Vec x, Vec v, Vec a, PetscReal shift_v, PetscReal shift_a, Mat J,
+                                 Mat P, void* self) noexcept;
+  static PetscErrorCode predict(SNES, Vec x, void* self) noexcept;
+  static PetscErrorCode converged(SNES, PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm,
+                                  SNESConvergedReason* reason, void* self) noexcept;
+  static PetscErrorCode before_stage(TS, PetscReal t) noexcept;
+
+  system::Assembler& assembler_;
+  scene::Time time_;
+  Schedule schedule_;
+  system::ForceScales scales_;
+  system::Vector x_, v_, a_;                                   ///< a_: what is reported and predicted with
+  system::Vector x0_, v0_;                                     ///< at the step's start
+  system::Vector start_acceleration_, stepper_acceleration_;   ///< the latter mirrors TSALPHA2's own
+  system::Matrix matrix_;
+  TimeStepper stepper_;
+  Counts counts_;
+  std::string failure_;
+  double furthest_ = 0;   ///< largest coordinate [m]
+  double previous_norm_ = 0;
+  double last_step_ = 0;   ///< [s]
+  int attempts_ = 0;       ///< of the running step
+  bool user_adapts_ = false;
+  bool user_line_search_ = false;
+};
+
+}   // namespace cablenet::solve

@@ -1,0 +1,32 @@
+#pragma once
+#include "cablenet/elements/cable.hpp"
+#include "cablenet/scene/scene.hpp"
+
+namespace cablenet::system {
+
+/// How the internal force is taken over a step.
+struct ForceRule {
+  scene::Scheme scheme = scene::Scheme::energy_momentum;
+  double axial_dissipation = 0;   ///< xi, energy_momentum only
+  elements::Tangent tangent = elements::Tangent::exact;
+};
+
+/// Root-sum-squares over all elements and loads: what Newton's tolerances are scaled by.
+struct ForceScales {
+  double load;        ///< tension, weight, m v^2/L at the start [N]
+  double stiffness;   ///< 2 EA/L [N/m]
+  double mass;        ///< [kg]
+  /// What rounding of positions does to the residual's 2-norm: eps |x| (stiffness + shift_a mass).  [N]
+  /// @param furthest largest coordinate [m]
+  double rounding(double furthest, double shift_a) const;
+};
+
+/// A stage of a step from t to t + dt: x_a = x + alpha_f (x1 - x), v_a alike, a_a = a + alpha_m (a1 - a).
+struct Stage {
+  double t;
+  double dt;
+  double alpha_f;
+  double alpha_m;
+};
+
+}   // namespace cablenet::system

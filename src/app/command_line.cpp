@@ -1,0 +1,86 @@
+#include "cablenet/app/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "cablenet/base/errors.hpp"
+
+namespace cablenet::app {
+namespace {
+
+constexpr auto about =
+    "cablenet: dynamics of networks of cables, on one core or many\n"
+    "  mpirun -n N cablenet run SCENE [-o DIR] [PETSc options]\n"
+    "Exit status: 0 done, 2 the scene or the command line is wrong, 3 the solver could not go on,\n"
+    "4 output could not be written.";
+
+bool is_petsc_option(const std::string& word) {
+  return word.size() > 2 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1]));
+}
+
+bool is_value(const std::string& word) {
+  const bool dashed =
+      word.size() > 1 && word[0] == '-' && !std::isdigit(static_cast<unsigned char>(word[1])) && word[1] != '.';
+  const std::string end = std::filesystem::path(word).extension().string();
+  return !dashed && end != ".yaml" && end != ".yml";
+}
+
+/// Takes the PETSc options out of the words: CLI11 would read -options_file as -o ptions_file.
+std::vector<std::string> take_petsc_options(std::vector<std::string>& words) {
+  std::vector<std::string> options, others;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (!is_petsc_option(words[i])) {
+      others.push_back(words[i]);
+      continue;
+    }
+    options.push_back(words[i]);
+    if (words[i] != "-help" && i + 1 < words.size() && is_value(words[i + 1])) options.push_back(words[++i]);
+  }
+  words = others;
+  return options;
+}
+
+}   // namespace
+
+CommandLine parse_command_line(const std::vector<std::string>& given) {
+  CommandLine line;
+  std::vector<std::string> words = given;
+  line.petsc_options = take_petsc_options(words);
+  CLI::App app{about, "cablenet"};
+  app.set_version_flag("--version", std::string("cablenet ") + CABLENET_VERSION);
+  app.require_subcommand(1);
+  CLI::App* run =
+      app.add_subcommand("run", "solve a scene; PETSc options may follow (-ts_dt 1e-3, -snes_monitor, -log_view, ...)");
+  const bool wants_petsc_help =
+      std::find(line.petsc_options.begin(), line.petsc_options.end(), "-help") != line.petsc_options.end();
+  CLI::Option* scene = run->add_option("SCENE", line.scene, "the scene, a YAML file");
+  if (!wants_petsc_help) scene->required();
+  run->add_option("-o", line.directory, "folder for the results; default: SCENE's name with .out, where you are");
+  run->footer("PETSc's own options: cablenet run -help");
+  CLI::App* check = app.add_subcommand("check", "read and validate a scene, print its size, write nothing");
+  check->add_option("SCENE", line.scene, "the scene, a YAML file")->required();
+  try {
+    std::reverse(words.begin(), words.end());
+    app.parse(words);
+  } catch (const CLI::CallForHelp&) {
+    line.text = run->parsed() ? run->help() : check->parsed() ? check->help() : app.help();
+    return line;
+  } catch (const CLI::CallForVersion& version) {
+    line.command = Command::version;
+    line.text = std::string(version.what()) + "\n";
+    return line;
+  } catch (const CLI::ParseError& error) {
+    throw InputError(fmt::format("{}; see cablenet --help", error.what()));
+  }
+  line.command = check->parsed() ? Command::check : line.scene.empty() ? Command::solver_help : Command::run;
+  if (check->parsed() && !line.petsc_options.empty())
+    throw InputError(fmt::format("check takes no option {}; see cablenet --help", line.petsc_options.front()));
+  if (line.directory.empty()) line.directory = std::filesystem::path(line.scene).stem().string() + ".out";
+  return line;
+}
+
+}   // namespace cablenet::app

@@ -1,0 +1,33 @@
+#include <mpi.h>
+
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+
+#include "cablenet/app/run.hpp"
+
+namespace {
+
+/// An exception that nobody is meant to catch may stand on one rank alone: unwinding would leave the others waiting.
+[[noreturn]] void abort_all_ranks() {
+  int rank = 0, started = 0;
+  MPI_Initialized(&started);
+  if (started) MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  try {
+    if (const auto error = std::current_exception()) std::rethrow_exception(error);
+    std::cerr << "[rank " << rank << "] cablenet: stopped without a reason" << std::endl;
+  } catch (const std::exception& error) {
+    std::cerr << "[rank " << rank << "] cablenet: " << error.what() << std::endl;
+  } catch (...) {
+    std::cerr << "[rank " << rank << "] cablenet: unknown exception" << std::endl;
+  }
+  if (started) MPI_Abort(MPI_COMM_WORLD, 3);
+  std::_Exit(3);
+}
+
+}   // namespace
+
+int main(int argc, char** argv) {
+  std::set_terminate(abort_all_ranks);
+  return cablenet::app::run(argv[0], {argv + 1, argv + argc});
+}

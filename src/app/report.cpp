@@ -1,0 +1,115 @@
+#include "cablenet/app/report.hpp"
+
+#include <fmt/format.h>
+#include <petscsys.h>
+#include <sys/resource.h>
+#include <xxhash.h>
+#include <yaml-cpp/yaml.h>
+
+#include <fstream>
+
+#include "cablenet/base/errors.hpp"
+
+namespace cablenet::app {
+namespace {
+
+std::string petsc_version() {
+  return fmt::format("{}.{}.{}", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR);
+}
+
+/// Sum and maximum over the ranks of the peak resident memory [MB].
+std::pair<double, double> peak_memory(MPI_Comm communicator) {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const double mine = static_cast<double>(usage.ru_maxrss) / 1024;
+  double sum = 0, most = 0;
+  MPI_Allreduce(&mine, &sum, 1, MPI_DOUBLE, MPI_SUM, communicator);
+  MPI_Allreduce(&mine, &most, 1, MPI_DOUBLE, MPI_MAX, communicator);
+  return {sum, most};
+}
+
+void emit_partition(YAML::Emitter& yaml, const partition::Partition& partition) {
+  const std::size_t ranks = partition.first_number.size() - 1;
+  std::vector<int> nodes(ranks), elements(ranks, 0);
+  for (std::size_t r = 0; r < ranks; ++r) nodes[r] = partition.first_number[r + 1] - partition.first_number[r];
+  for (const int owner : partition.element_owner) ++elements[static_cast<std::size_t>(owner)];
+  yaml << YAML::Key << "partition" << YAML::Value << YAML::BeginMap;
+  yaml << YAML::Key << "free_nodes" << YAML::Value << YAML::Flow << nodes;
+  yaml << YAML::Key << "elements" << YAML::Value << YAML::Flow << elements << YAML::EndMap;
+}
+
+void emit_solution(YAML::Emitter& yaml, const Report& report) {
+  yaml << YAML::Key << "scheme" << YAML::Value << report.scheme;
+  yaml << YAML::Key << "linear_solver" << YAML::Value << report.linear_solver;
+  yaml << YAML::Key << "steps" << YAML::Value << report.counts.steps;
+  yaml << YAML::Key << "rejected_steps" << YAML::Value << report.counts.rejected;
+  yaml << YAML::Key << "newton_iterations" << YAML::Value << report.counts.newton;
+  yaml << YAML::Key << "linear_iterations" << YAML::Value << report.counts.linear;
+  yaml << YAML::Key << "wall_seconds" << YAML::Value << YAML::BeginMap;
+  for (const auto& [phase, seconds] : report.seconds)
+    yaml << YAML::Key << phase << YAML::Value << fmt::format("{:.4g}", seconds);
+  yaml << YAML::EndMap;
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  const std::filesystem::path part = path.string() + ".tmp";
+  std::ofstream file(part);
+  file << text << '\n';
+  file.close();
+  std::error_code problem;
+  if (file) std::filesystem::rename(part, path, problem);
+  if (!file || problem) throw OutputError(fmt::format("{} cannot be written", path.string()));
+}
+
+}   // namespace
+
+std::string scene_hash(const scene::Scene& scene) {
+  const XXH128_hash_t hash = XXH3_128bits(scene.text.data(), scene.text.size());
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+std::string describe(const scene::Scene& scene, const network::Network& network) {
+  return fmt::format("{} cables, {} nets, {} nodes ({} held or moved), {} elements, {} bodies, {} unknowns",
+                     scene.cables.size(), scene.nets.size(), network.position.size(), network.prescribed.size(),
+                     network.elements.size(), 0, 3 * (network.position.size() - network.prescribed.size()));
+}
+
+void write_report(const std::filesystem::path& path, const scene::Scene& scene, const network::Network& network,
+                  const partition::Partition& partition, const Report& report, MPI_Comm communicator) {
+  const auto [memory_sum, memory_most] = peak_memory(communicator);
+  YAML::Emitter yaml;
+  yaml << YAML::BeginMap;
+  yaml << YAML::Key << "cablenet" << YAML::Value << CABLENET_VERSION;
+  yaml << YAML::Key << "petsc" << YAML::Value << petsc_version();
+  yaml << YAML::Key << "scene" << YAML::Value << scene.file;
+  yaml << YAML::Key << "title" << YAML::Value << scene.title;
+  yaml << YAML::Key << "scene_hash" << YAML::Value << scene_hash(scene);
+  yaml << YAML::Key << "status" << YAML::Value << report.status;
+  if (!report.message.empty()) yaml << YAML::Key << "message" << YAML::Value << report.message;
+  yaml << YAML::Key << "time_reached" << YAML::Value << fmt::format("{:.17g}", report.reached);
+  yaml << YAML::Key << "ranks" << YAML::Value << partition.first_number.size() - 1;
+  yaml << YAML::Key << "nodes" << YAML::Value << network.position.size();
+  yaml << YAML::Key << "elements" << YAML::Value << network.elements.size();
+  yaml << YAML::Key << "bodies" << YAML::Value << 0;
+  yaml << YAML::Key << "unknowns" << YAML::Value << 3 * (network.position.size() - network.prescribed.size());
+  emit_partition(yaml, partition);
+  emit_solution(yaml, report);
+  yaml << YAML::Key << "peak_memory_MB" << YAML::Value << YAML::BeginMap;
+  yaml << YAML::Key << "all_ranks" << YAML::Value << fmt::format("{:.1f}", memory_sum);
+  yaml << YAML::Key << "largest_rank" << YAML::Value << fmt::format("{:.1f}", memory_most) << YAML::EndMap
+       << YAML::EndMap;
+
+  int rank = 0, failed = 0;
+  MPI_Comm_rank(communicator, &rank);
+  std::string problem;
+  if (rank == 0) try {
+      write_text(path, yaml.c_str());
+    } catch (const OutputError& error) {
+      problem = error.what();
+      failed = 1;
+    }
+  MPI_Bcast(&failed, 1, MPI_INT, 0, communicator);
+  if (failed) throw OutputError(problem);
+}
+
+}   // namespace cablenet::app

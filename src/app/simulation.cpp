@@ -1,0 +1,202 @@
+#include "cablenet/app/simulation.hpp"
+
+#include <fmt/format.h>
+#include <petscsys.h>
+
+#include <chrono>
+#include <optional>
+
+#include "cablenet/app/progress.hpp"
+#include "cablenet/base/errors.hpp"
+#include "cablenet/network/build.hpp"
+#include "cablenet/output/frames.hpp"
+#include "cablenet/output/probes.hpp"
+
+namespace cablenet::app {
+namespace {
+
+using petsc::check;
+
+/// Wall time since construction or the last lap [s].
+class Stopwatch {
+public:
+  double lap() {
+    const auto now = Clock::now();
+    const double seconds = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    return seconds;
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last_ = Clock::now();
+};
+
+std::string text_option(const char* name) {
+  char value[64] = "";
+  PetscBool found = PETSC_FALSE;
+  check(PetscOptionsGetString(nullptr, nullptr, name, value, sizeof(value), &found));
+  return value;
+}
+
+system::ForceRule force_rule(const scene::Time& time) {
+  system::ForceRule rule{time.scheme, time.axial_dissipation, elements::Tangent::exact};
+  const std::string tangent = text_option("-cable_tangent");
+  if (!tangent.empty() && tangent != "exact" && tangent != "secant")
+    throw InputError(fmt::format("-cable_tangent: `{}` is not allowed; expected exact or secant", tangent));
+  if (tangent == "secant") rule.tangent = elements::Tangent::secant;
+  PetscBool given = PETSC_FALSE;
+  if (time.scheme != scene::Scheme::energy_momentum) return rule;
+  check(PetscOptionsGetReal(nullptr, nullptr, "-cable_axial_dissipation", &rule.axial_dissipation, &given));
+  if (!(rule.axial_dissipation >= 0 && rule.axial_dissipation <= 0.5))
+    throw InputError(fmt::format("-cable_axial_dissipation: {} is not allowed; expected a number from 0 to 0.5",
+                                 rule.axial_dissipation));
+  return rule;
+}
+
+std::string scheme_name(const scene::Time& time, const system::ForceRule& rule) {
+  switch (time.scheme) {
+    case scene::Scheme::energy_momentum:
+      return fmt::format("energy_momentum, axial dissipation {}", rule.axial_dissipation);
+    case scene::Scheme::generalized_alpha:
+      return fmt::format("generalized_alpha, spectral radius {}", time.spectral_radius);
+    case scene::Scheme::plain:
+      return fmt::format("plain, spectral radius {}", time.spectral_radius);
+  }
+  return "";
+}
+
+class Simulation {
+public:
+  Simulation(const scene::Scene& scene, std::filesystem::path directory)
+      : scene_(scene),
+        directory_(std::move(directory)),
+        rule_(force_rule(scene.time)),
+        network_(network::build_network(scene)),
+        partition_(partition::make_partition(network_, PETSC_COMM_WORLD)) {
+    MPI_Comm_rank(PETSC_COMM_WORLD, &rank_);
+    MPI_Comm_size(PETSC_COMM_WORLD, &ranks_);
+    assembler_.emplace(partition::make_local_network(network_, partition_, rank_), rule_, PETSC_COMM_WORLD);
+    dynamics_.emplace(*assembler_, scene_.time, scene_.output.interval);
+    if (rank_ == 0)
+      fmt::print("{}: {}; {} rank{}, {}, {}\n", scene_.file, describe(scene_, network_), ranks_, ranks_ == 1 ? "" : "s",
+                 scheme_name(scene_.time, rule_), dynamics_->linear_solver());
+  }
+
+  int run() {
+    open_output();
+    report_.seconds.emplace_back("set_up", watch_.lap());
+    Progress progress(scene_.time.start, scene_.time.end);
+    const solve::Verdict verdict = dynamics_->run({
+        [&](const solve::Instant& instant) { write(instant); },
+        [&](double t, double dt, const solve::Counts& counts) {
+          if (rank_ == 0) progress.step(t, dt, counts.steps, counts.newton);
+        },
+    });
+    finish_output();
+    if (rank_ == 0) progress.finish(report_.reached, dynamics_->counts().steps, dynamics_->counts().newton);
+    return conclude(verdict);
+  }
+
+private:
+  void open_output() {
+    frames_.emplace(network_, partition_, *assembler_);
+    probes_.emplace(scene_, network_, *assembler_);
+    output::Series::Options options;
+    options.scene_hash = scene_hash(scene_);
+    options.version = CABLENET_VERSION;
+    series_.emplace(PETSC_COMM_WORLD, directory_, frames_->mesh(), options);
+    int failed = 0;
+    std::string problem;
+    if (rank_ == 0) try {
+        std::filesystem::remove(directory_ / "run.yaml");
+        history_.emplace(directory_ / "history.csv", probes_->columns());
+      } catch (const std::exception& error) {
+        failed = 1;
+        problem = error.what();
+      }
+    MPI_Bcast(&failed, 1, MPI_INT, 0, PETSC_COMM_WORLD);
+    if (failed) throw OutputError(problem);
+  }
+
+  void write(const solve::Instant& instant) {
+    solving_ += watch_.lap();
+    try {
+      const system::LocalState& state = assembler_->observe(instant.t, instant.x, instant.v, instant.a);
+      const std::vector<double>& row = probes_->row(state);
+      if (history_) history_->write(row);
+      series_->write(frames_->collect(state, instant.step));
+    } catch (const OutputError& error) {
+      abort_output(error);
+    }
+    report_.reached = instant.t;
+    writing_ += watch_.lap();
+  }
+
+  void finish_output() {
+    solving_ += watch_.lap();
+    try {
+      series_->close();
+    } catch (const OutputError& error) {
+      abort_output(error);
+    }
+    writing_ += watch_.lap();
+  }
+
+  /// One rank alone may be here, so the others are not waited for.
+  [[noreturn]] static void abort_output(const OutputError& error) {
+    fmt::print(stderr, "cablenet: error: {}\n", error.what());
+    MPI_Abort(PETSC_COMM_WORLD, 4);
+    std::abort();
+  }
+
+  int conclude(solve::Verdict verdict) {
+    report_.status = "finished";
+    if (verdict == solve::Verdict::stopped) report_.status = "stopped";
+    if (verdict == solve::Verdict::failed) {
+      const int element = dynamics_->failed_element();
+      report_.status = "failed";
+      report_.message = fmt::format("at t = {:.9g} s the solver could not go on near cable {}: {}", report_.reached,
+                                    network_.element_name(element), dynamics_->failure());
+    }
+    report_.scheme = scheme_name(scene_.time, rule_);
+    report_.linear_solver = dynamics_->linear_solver();
+    report_.counts = dynamics_->counts();
+    report_.seconds.emplace_back("solve", solving_);
+    report_.seconds.emplace_back("output", writing_);
+    write_report(directory_ / "run.yaml", scene_, network_, partition_, report_, PETSC_COMM_WORLD);
+    if (rank_ == 0) fmt::print("results in {}: open cables.xmf in ParaView\n", directory_.string());
+    if (verdict != solve::Verdict::failed) return 0;
+    if (rank_ == 0)
+      fmt::print(
+          stderr,
+          "cablenet: error: {}. The state at that time is saved as the last frame in {}. Try a smaller time.step, "
+          "scheme: energy_momentum, or a smaller spectral_radius\n",
+          report_.message, directory_.string());
+    return 3;
+  }
+
+  const scene::Scene& scene_;
+  std::filesystem::path directory_;
+  Stopwatch watch_;
+  system::ForceRule rule_;
+  network::Network network_;
+  partition::Partition partition_;
+  int rank_ = 0;
+  int ranks_ = 1;
+  std::optional<system::Assembler> assembler_;
+  std::optional<solve::Dynamics> dynamics_;
+  std::optional<output::Frames> frames_;
+  std::optional<output::Probes> probes_;
+  std::optional<output::Series> series_;
+  std::optional<output::History> history_;   ///< rank 0
+  Report report_;
+  double solving_ = 0;
+  double writing_ = 0;
+};
+
+}   // namespace
+
+int simulate(const scene::Scene& scene, const std::string& directory) { return Simulation(scene, directory).run(); }
+
+}   // namespace cablenet::app

@@ -1,0 +1,25 @@
+#pragma once
+#include <filesystem>
+#include <string_view>
+
+/// POSIX file operations that survive a crash, every return code checked; none is collective.
+namespace cablenet::output {
+
+/// @throws OutputError "cannot ACTION PATH: REASON" with the reason of `error_code`, an errno.
+[[noreturn]] void fail(std::string_view action, const std::filesystem::path& path, int error_code);
+
+/// Writes all of `text`.  @throws OutputError
+void write_all(int descriptor, std::string_view text, const std::filesystem::path& path);
+
+/// Gives a complete file its final name, replacing what had it; durable on return.  @throws OutputError
+void publish(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// Replaces `path` by head + body + tail so that a reader sees either the old file or the whole new one.
+/// @throws OutputError
+void replace_text(const std::filesystem::path& path, std::string_view head, std::string_view body,
+                  std::string_view tail);
+
+/// Makes `directory` and removes from it what an earlier Series wrote; other files stay.  @throws OutputError
+void prepare_directory(const std::filesystem::path& directory);
+
+}   // namespace cablenet::output

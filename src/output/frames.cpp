@@ -1,0 +1,123 @@
+#include "cablenet/output/frames.hpp"
+
+#include <algorithm>
+
+namespace cablenet::output {
+namespace {
+
+using petsc::check;
+
+std::size_t at(std::int64_t index) { return static_cast<std::size_t>(index); }
+
+std::int64_t block_start(std::int64_t count, int rank, int ranks) { return count * rank / ranks; }
+
+/// Where item `index` of `count` is written: the rank and the place in its block.
+PetscSFNode block_place(std::int64_t count, std::int64_t index, int ranks) {
+  int rank = static_cast<int>(((index + 1) * ranks - 1) / count);
+  while (block_start(count, rank, ranks) > index) --rank;
+  while (block_start(count, rank + 1, ranks) <= index) ++rank;
+  return {rank, static_cast<PetscInt>(index - block_start(count, rank, ranks))};
+}
+
+/// Sends `width` doubles per leaf to its root.
+void send(PetscSF forest, int width, const std::vector<double>& leaves, std::vector<double>& roots, MPI_Op operation) {
+  MPI_Datatype unit = MPI_DOUBLE;
+  if (width > 1) {
+    MPI_Type_contiguous(width, MPI_DOUBLE, &unit);
+    MPI_Type_commit(&unit);
+  }
+  check(PetscSFReduceBegin(forest, unit, leaves.data(), roots.data(), operation));
+  check(PetscSFReduceEnd(forest, unit, leaves.data(), roots.data(), operation));
+  if (width > 1) MPI_Type_free(&unit);
+}
+
+}   // namespace
+
+Frames::Frames(const network::Network& network, const partition::Partition& partition,
+               const system::Assembler& assembler)
+    : assembler_(assembler) {
+  MPI_Comm_rank(assembler.communicator(), &rank_);
+  MPI_Comm_size(assembler.communicator(), &ranks_);
+  fill_mesh(network, partition);
+  make_forests();
+  points_.resize(at(3 * mesh_.local_nodes));
+  velocity_.resize(at(3 * mesh_.local_nodes));
+  block_node_tension_.resize(at(mesh_.local_nodes));
+  elements_at_node_.assign(at(mesh_.local_nodes), 0);
+  block_tension_.resize(mesh_.lines.size());
+  block_strain_.resize(mesh_.lines.size());
+  const partition::LocalNetwork& here = assembler_.network();
+  tension_.resize(here.elements.size());
+  strain_.resize(here.elements.size());
+  node_tension_.assign(at(here.nodes), 0);
+  for (const auto& element : here.elements)
+    for (const int node : element.node) node_tension_[at(node)] += 1;
+  send(all_nodes_, 1, node_tension_, elements_at_node_, MPI_SUM);
+}
+
+void Frames::fill_mesh(const network::Network& network, const partition::Partition& partition) {
+  mesh_.nodes = static_cast<std::int64_t>(network.position.size());
+  mesh_.elements = static_cast<std::int64_t>(network.elements.size());
+  mesh_.first_node = block_start(mesh_.nodes, rank_, ranks_);
+  mesh_.local_nodes = block_start(mesh_.nodes, rank_ + 1, ranks_) - mesh_.first_node;
+  mesh_.first_element = block_start(mesh_.elements, rank_, ranks_);
+  std::size_t span = 0;
+  for (auto e = mesh_.first_element; e < block_start(mesh_.elements, rank_ + 1, ranks_); ++e) {
+    while (e >= network.spans[span].first_element + network.spans[span].elements) ++span;
+    mesh_.lines.push_back(network.elements[at(e)].node);
+    mesh_.cable_id.push_back(static_cast<int>(span));
+    mesh_.rank.push_back(partition.element_owner[at(e)]);
+  }
+  for (const auto& cable : network.spans) mesh_.cable_names.push_back(cable.name);
+}
+
+void Frames::make_forests() {
+  const partition::LocalNetwork& here = assembler_.network();
+  std::vector<PetscInt> spoken_for;
+  std::vector<PetscSFNode> spoken_places, places, element_places;
+  for (int i = 0; i < here.nodes; ++i) {
+    places.push_back(block_place(mesh_.nodes, here.scene_node[at(i)], ranks_));
+    if (!here.primary[at(i)]) continue;
+    spoken_for.push_back(i);
+    spoken_places.push_back(places.back());
+  }
+  for (const int element : here.scene_element) element_places.push_back(block_place(mesh_.elements, element, ranks_));
+  const auto create = [&](StarForest& forest, std::int64_t roots, std::vector<PetscInt>* leaves,
+                          std::vector<PetscSFNode>& remote) {
+    check(PetscSFCreate(assembler_.communicator(), forest.out()));
+    check(PetscSFSetGraph(forest, static_cast<PetscInt>(roots), static_cast<PetscInt>(remote.size()),
+                          leaves == nullptr ? nullptr : leaves->data(), PETSC_COPY_VALUES, remote.data(),
+                          PETSC_COPY_VALUES));
+    check(PetscSFSetUp(forest));
+  };
+  create(nodes_, mesh_.local_nodes, &spoken_for, spoken_places);
+  create(all_nodes_, mesh_.local_nodes, nullptr, places);
+  create(elements_, static_cast<std::int64_t>(mesh_.lines.size()), nullptr, element_places);
+}
+
+void Frames::compute_tensions(const system::LocalState& state) {
+  const partition::LocalNetwork& here = assembler_.network();
+  std::fill(node_tension_.begin(), node_tension_.end(), 0.0);
+  for (std::size_t i = 0; i < here.elements.size(); ++i) {
+    const partition::LocalElement& element = here.elements[i];
+    const elements::Chord chord = state.chord(element);
+    tension_[i] = elements::cable_tension(here.materials[at(element.material)], element.length, chord);
+    strain_[i] = (chord.d.norm() - element.length) / element.length;
+    for (const int node : element.node) node_tension_[at(node)] += tension_[i];
+  }
+}
+
+Frame Frames::collect(const system::LocalState& state, long step) {
+  compute_tensions(state);
+  send(nodes_, 3, state.x, points_, MPI_REPLACE);
+  send(nodes_, 3, state.v, velocity_, MPI_REPLACE);
+  send(elements_, 1, tension_, block_tension_, MPI_REPLACE);
+  send(elements_, 1, strain_, block_strain_, MPI_REPLACE);
+  std::fill(block_node_tension_.begin(), block_node_tension_.end(), 0.0);
+  send(all_nodes_, 1, node_tension_, block_node_tension_, MPI_SUM);
+  for (std::size_t i = 0; i < block_node_tension_.size(); ++i)
+    block_node_tension_[i] /= std::max(1.0, elements_at_node_[i]);
+  return {state.t, step, points_, velocity_, block_node_tension_, block_tension_, block_strain_};
+}
+
+}   // namespace cablenet::output

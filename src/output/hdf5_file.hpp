@@ -1,0 +1,64 @@
+#pragma once
+#include <hdf5.h>
+#include <mpi.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// The little of HDF5 that a series needs, with every return code checked.
+/// HDF5 itself prints nothing: its innermost reason is part of the OutputError.
+namespace cablenet::output {
+
+/// How the rows of a dataset lie on the ranks: one contiguous block each, possibly empty.
+struct Rows {
+  std::int64_t total;
+  std::int64_t first;   ///< of this rank's block
+  std::int64_t local;
+};
+
+/// A new HDF5 file.  Every member but the destructor is collective over the communicator; objects are named by
+/// absolute paths.  All throw OutputError, possibly on one rank alone.
+class Hdf5File {
+public:
+  /// Replaces an existing file.
+  Hdf5File(MPI_Comm communicator, const std::filesystem::path& path);
+  /// Leaves a file that was not closed to MPI_Finalize: closing waits for ranks that may never come.
+  ~Hdf5File() = default;
+  Hdf5File(const Hdf5File&) = delete;
+  Hdf5File& operator=(const Hdf5File&) = delete;
+
+  void create_group(const std::string& name);
+
+  /// A contiguous dataset of shape (rows.total), or (rows.total, columns) where columns > 1.
+  /// @param values  this rank's rows, row-major
+  void write_rows(const std::string& name, const Rows& rows, int columns, std::span<const double> values);
+  void write_rows(const std::string& name, const Rows& rows, int columns, std::span<const int> values);
+  /// Fixed-length UTF-8 strings, padded with zeros.
+  /// @param values  all of them, the same on every rank; `rows` is all on one rank and nothing on the others
+  void write_strings(const std::string& name, const Rows& rows, const std::vector<std::string>& values);
+
+  /// The value is the same on every rank.
+  void set_attribute(const std::string& object, const std::string& name, double value);
+  void set_attribute(const std::string& object, const std::string& name, std::int64_t value);
+  void set_attribute(const std::string& object, const std::string& name, std::string_view value);
+
+  /// `name` stands for `target` in another file, named relative to this file's directory.
+  void link(const std::string& name, const std::string& file, const std::string& target);
+
+  /// Everything is on the disk when this returns on every rank.
+  void close();
+
+private:
+  void write_block(const std::string& name, const Rows& rows, int columns, hid_t type, const void* values);
+  void write_attribute(const std::string& object, const std::string& name, hid_t type, const void* value);
+  hid_t check(hid_t result, std::string_view what) const;
+
+  std::filesystem::path path_;
+  hid_t file_ = H5I_INVALID_HID;
+};
+
+}   // namespace cablenet::output

@@ -1,0 +1,47 @@
+#include "index.hpp"
+
+#include <utility>
+
+#include "files.hpp"
+#include "xdmf.hpp"
+
+namespace cablenet::output {
+
+Index::Index(std::filesystem::path directory, Origin origin, std::int64_t nodes, std::int64_t elements)
+    : directory_(std::move(directory)), origin_(std::move(origin)), nodes_(nodes), elements_(elements) {}
+
+void Index::add_frame(double time) {
+  const std::string file = segment_name(static_cast<int>(ends_.size()));
+  steps_ += xdmf_step(time, nodes_, elements_, file + ":" + frame_name(frames_));
+  ++frames_;
+}
+
+void Index::close_segment() {
+  ends_.push_back(frames_);
+  // In this order every frame that the .xmf lists is in result.h5 too, whenever the run is killed.
+  write_result();
+  write_xdmf();
+}
+
+void Index::write_result() const {
+  const auto path = directory_ / "result.h5";
+  const auto temporary = directory_ / "result.h5.tmp";
+  // MPI's file access, unlike the serial one, takes no lock, which some file servers refuse.
+  Hdf5File file(MPI_COMM_SELF, temporary);
+  stamp(file, origin_);
+  file.link("/mesh", "mesh.h5", "/mesh");
+  file.create_group("/frames");
+  std::int64_t frame = 0;
+  for (std::size_t segment = 0; segment < ends_.size(); ++segment)
+    for (const auto name = segment_name(static_cast<int>(segment)); frame < ends_[segment]; ++frame)
+      file.link(frame_name(frame), name, frame_name(frame));
+  file.close();
+  publish(temporary, path);
+}
+
+void Index::write_xdmf() const {
+  // A mesh without cells is nothing that ParaView could show.
+  if (elements_ > 0) replace_text(directory_ / "cables.xmf", xdmf_head, steps_, xdmf_tail);
+}
+
+}   // namespace cablenet::output

@@ -1,0 +1,119 @@
+#include "cablenet/output/probes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cablenet::output {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+/// Index of value in values, -1 if it is not there.
+template <class Range, class Value>
+int index_of(const Range& values, const Value& value) {
+  const auto found = std::find(values.begin(), values.end(), value);
+  return found == values.end() ? -1 : static_cast<int>(found - values.begin());
+}
+
+/// A free node with one element and no load: nothing pulls there.
+bool is_bare_end(const network::Network& network, int node) {
+  const auto here = [&](const auto& item) { return item.node == node; };
+  const auto elements = std::count_if(network.elements.begin(), network.elements.end(), [&](const network::Element& e) {
+    return e.node[0] == node || e.node[1] == node;
+  });
+  return elements == 1 && std::none_of(network.prescribed.begin(), network.prescribed.end(), here) &&
+         std::none_of(network.loads.begin(), network.loads.end(), here);
+}
+
+}   // namespace
+
+Probes::Probes(const scene::Scene& scene, const network::Network& network, const system::Assembler& assembler)
+    : assembler_(assembler), columns_{"time"}, energy_(scene.output.energy) {
+  for (const auto& item : scene.output.history)
+    item.kind == scene::HistoryKind::point ? add_point(scene, network, item.index) : add_cable(network, item.index);
+  if (energy_)
+    for (const char* name : {"kinetic", "strain", "gravity", "work", "total"})
+      columns_.push_back(std::string("energy.") + name);
+  row_.resize(columns_.size());
+}
+
+void Probes::add_point(const scene::Scene& scene, const network::Network& network, int index) {
+  const partition::LocalNetwork& here = assembler_.network();
+  const int node = network.point_node[at(index)];
+  const scene::Point& point = scene.points[at(index)];
+  PointProbe probe{columns_.size()};
+  probe.prescribed = point.motion.has_value();
+  const int local = index_of(here.scene_node, node);
+  if (local >= 0 && here.primary[at(local)]) probe.node = local;
+  for (std::size_t i = 0; i < here.loads.size(); ++i)
+    if (here.loads[i].node == probe.node && probe.node >= 0) probe.load = static_cast<int>(i);
+  if (probe.prescribed && local >= 0)
+    for (std::size_t i = 0; i < here.elements.size(); ++i)
+      for (int side = 0; side < 2; ++side)
+        if (here.elements[i].node[at(side)] == local) probe.ends.push_back({static_cast<int>(i), side});
+  points_.push_back(probe);
+  for (const char* name : {"x", "y", "z", "vx", "vy", "vz", "ax", "ay", "az"})
+    columns_.push_back(point.name + "." + name);
+  if (probe.prescribed)
+    for (const char* name : {"fx", "fy", "fz"}) columns_.push_back(point.name + "." + name);
+}
+
+void Probes::add_cable(const network::Network& network, int index) {
+  const network::Span& span = network.spans[at(index)];
+  const std::array<int, 2> element{span.first_element, span.first_element + span.elements - 1};
+  for (int side = 0; side < 2; ++side) {
+    const int local = index_of(assembler_.network().scene_element, element[at(side)]);
+    const int node = network.elements[at(element[at(side)])].node[at(side)];
+    if (local >= 0 && !is_bare_end(network, node)) cables_.push_back({columns_.size(), {local, side}});
+    columns_.push_back(span.name + (side == 0 ? ".tension_from" : ".tension_to"));
+  }
+}
+
+Vector3 Probes::end_force(const system::LocalState& state, const ElementEnd& end) const {
+  const partition::LocalNetwork& here = assembler_.network();
+  const partition::LocalElement& element = here.elements[at(end.element)];
+  const elements::CableMaterial& material = here.materials[at(element.material)];
+  const elements::EndForces forces = elements::cable_end_forces(
+      material, element.length, here.gravity, state.chord(element), state.inertial(element, material.mass_damping));
+  return end.side == 0 ? forces.on1 : forces.on2;
+}
+
+void Probes::put(std::size_t column, const Vector3& value) {
+  for (std::size_t k = 0; k < 3; ++k) row_[column + k] += value(static_cast<Eigen::Index>(k));
+}
+
+const std::vector<double>& Probes::row(const system::LocalState& state) {
+  using system::LocalState;
+  const partition::LocalNetwork& here = assembler_.network();
+  std::fill(row_.begin(), row_.end(), 0.0);
+  for (const PointProbe& probe : points_) {
+    if (probe.node >= 0) {
+      put(probe.column, LocalState::at(state.x, probe.node));
+      put(probe.column + 3, LocalState::at(state.v, probe.node));
+      put(probe.column + 6, LocalState::at(state.a, probe.node));
+    }
+    for (const ElementEnd& end : probe.ends) put(probe.column + 9, end_force(state, end));
+    if (probe.prescribed && probe.load >= 0) {
+      const auto& [node, mass, force] = here.loads[at(probe.load)];
+      put(probe.column + 9, mass * (LocalState::at(state.a, node) + Vector3(0, 0, here.gravity)) - force);
+    }
+  }
+  for (const CableProbe& probe : cables_) {
+    const partition::LocalElement& element = here.elements[at(probe.end.element)];
+    const double tension =
+        elements::cable_tension(here.materials[at(element.material)], element.length, state.chord(element));
+    row_[probe.column] = std::copysign(end_force(state, probe.end).norm(), tension < 0 ? -1 : 1);
+  }
+  if (energy_) {
+    const system::Energies e = assembler_.energies();
+    std::copy_n(std::array{e.kinetic, e.strain, e.gravity, e.work, e.total()}.begin(), 5, row_.end() - 5);
+  }
+  int rank = 0;
+  MPI_Comm_rank(assembler_.communicator(), &rank);
+  MPI_Reduce(rank == 0 ? MPI_IN_PLACE : row_.data(), row_.data(), static_cast<int>(row_.size()), MPI_DOUBLE, MPI_SUM, 0,
+             assembler_.communicator());
+  row_.front() = state.t;
+  return row_;
+}
+
+}   // namespace cablenet::output

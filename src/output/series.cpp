@@ -1,0 +1,191 @@
+#include "cablenet/output/series.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <optional>
+#include <utility>
+
+#include "cablenet/base/errors.hpp"
+#include "files.hpp"
+#include "hdf5_file.hpp"
+#include "index.hpp"
+#include "layout.hpp"
+
+namespace cablenet::output {
+namespace fs = std::filesystem;
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point instant) {
+  return std::chrono::duration<double>(Clock::now() - instant).count();
+}
+
+int rank_in(MPI_Comm communicator) {
+  int rank = 0;
+  MPI_Comm_rank(communicator, &rank);
+  return rank;
+}
+
+/// Collective: does `work` on every rank; what it threw on the lowest failing rank is thrown on every rank.
+template <class Work>
+void agree(MPI_Comm communicator, const Work& work) {
+  std::string error;
+  try {
+    work();
+  } catch (const std::exception& caught) {
+    error = caught.what();
+  }
+  int size = 0;
+  MPI_Comm_size(communicator, &size);
+  int speaker = error.empty() ? size : rank_in(communicator);
+  MPI_Allreduce(MPI_IN_PLACE, &speaker, 1, MPI_INT, MPI_MIN, communicator);
+  if (speaker == size) return;
+  int length = static_cast<int>(error.size());
+  MPI_Bcast(&length, 1, MPI_INT, speaker, communicator);
+  error.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(error.data(), length, MPI_CHAR, speaker, communicator);
+  throw OutputError(error);
+}
+
+}   // namespace
+
+struct Series::Impl {
+  Impl(MPI_Comm comm, fs::path run_directory, const Mesh& mesh, const Options& given)
+      : communicator(comm),
+        rank(rank_in(comm)),
+        directory(std::move(run_directory)),
+        options(given),
+        nodes{mesh.nodes, mesh.first_node, mesh.local_nodes},
+        elements{mesh.elements, mesh.first_element, static_cast<std::int64_t>(mesh.lines.size())},
+        index(directory, origin(), mesh.nodes, mesh.elements) {}
+
+  Origin origin() const { return {options.version, options.scene_hash}; }
+  void write_mesh(const Mesh& mesh);
+  void open_segment();
+  void write_fields(const Frame& frame);
+  bool segment_is_due();
+  void close_segment();
+
+  MPI_Comm communicator;
+  int rank;
+  fs::path directory;
+  Options options;
+  Rows nodes;
+  Rows elements;
+  Index index;   ///< used on rank 0 alone
+
+  std::optional<Hdf5File> file;   ///< the open segment
+  int segment = 0;                ///< number of the open or next segment
+  std::int64_t frames = 0;        ///< in all segments
+  std::int64_t open_frames = 0;   ///< in the open segment
+
+  Clock::time_point opened = Clock::now();
+  Clock::time_point last_write = Clock::now();
+  double index_seconds = 0;   ///< that the index took when it was last written
+};
+
+void Series::Impl::write_mesh(const Mesh& mesh) {
+  const fs::path part = directory / "mesh.h5.part";
+  const auto names = static_cast<std::int64_t>(mesh.cable_names.size());
+  const Rows name_rows{names, rank == 0 ? 0 : names, rank == 0 ? names : 0};
+  const std::span<const int> lines(mesh.lines.empty() ? nullptr : mesh.lines.front().data(), 2 * mesh.lines.size());
+  std::optional<Hdf5File> out;
+  // One step at a time, lest a rank that failed leave the others waiting in the next.
+  const auto step = [this](const auto& work) { agree(communicator, work); };
+  step([&] { out.emplace(communicator, part); });
+  step([&] { stamp(*out, origin()); });
+  step([&] { out->create_group("/mesh"); });
+  step([&] { out->write_rows("/mesh/lines", elements, 2, lines); });
+  step([&] { out->write_rows("/mesh/cable_id", elements, 1, mesh.cable_id); });
+  step([&] { out->write_rows("/mesh/rank", elements, 1, mesh.rank); });
+  step([&] { out->write_strings("/mesh/cable_names", name_rows, mesh.cable_names); });
+  step([&] { out->close(); });
+  step([&] {
+    if (rank == 0) publish(part, directory / "mesh.h5");
+  });
+}
+
+void Series::Impl::open_segment() {
+  opened = Clock::now();
+  file.emplace(communicator, directory / (segment_name(segment) + ".part"));
+  stamp(*file, origin());
+  file->create_group("/frames");
+}
+
+void Series::Impl::write_fields(const Frame& frame) {
+  const std::string group = frame_name(frames);
+  const auto field = [&](const char* name, const Rows& rows, int columns, std::span<const double> values,
+                         const char* units) {
+    const std::string dataset = group + "/" + name;
+    file->write_rows(dataset, rows, columns, values);
+    file->set_attribute(dataset, "units", units);
+  };
+  file->create_group(group);
+  file->set_attribute(group, "time", frame.time);
+  file->set_attribute(group, "step", frame.step);
+  field("points", nodes, 3, frame.points, "m");
+  field("velocity", nodes, 3, frame.velocity, "m/s");
+  field("tension_node", nodes, 1, frame.tension_node, "N");
+  field("tension", elements, 1, frame.tension, "N");
+  field("strain", elements, 1, frame.strain, "1");
+}
+
+/// Rank 0 decides for all, whose clocks differ.
+bool Series::Impl::segment_is_due() {
+  int due = 0;
+  if (rank == 0) {
+    const std::int64_t frame_limit = std::max<std::int64_t>(options.frames_per_segment, (frames - open_frames) / 10);
+    const double time_limit = std::max(options.seconds_per_segment, 50 * index_seconds);
+    // The next frame is expected as long after this one as this one after the last.
+    const double age_at_next = seconds_since(opened) + seconds_since(last_write);
+    due = open_frames >= frame_limit || age_at_next >= time_limit;
+    last_write = Clock::now();
+  }
+  MPI_Bcast(&due, 1, MPI_INT, 0, communicator);
+  return due != 0;
+}
+
+void Series::Impl::close_segment() {
+  file->close();
+  file.reset();
+  MPI_Barrier(communicator);
+  if (rank == 0) {
+    const auto begin = Clock::now();
+    const fs::path path = directory / segment_name(segment);
+    publish(path.string() + ".part", path);
+    index.close_segment();
+    index_seconds = seconds_since(begin);
+  }
+  ++segment;
+  open_frames = 0;
+}
+
+Series::Series(MPI_Comm communicator, fs::path directory, const Mesh& mesh, Options options)
+    : impl_(std::make_unique<Impl>(communicator, std::move(directory), mesh, options)) {
+  agree(communicator, [this] {
+    if (impl_->rank == 0) prepare_directory(impl_->directory);
+  });
+  impl_->write_mesh(mesh);
+}
+
+// An open segment is left as it is: closing it here could wait for ranks that unwind another way.
+Series::~Series() = default;
+
+void Series::write(const Frame& frame) {
+  if (!impl_->file) impl_->open_segment();
+  impl_->write_fields(frame);
+  if (impl_->rank == 0) impl_->index.add_frame(frame.time);
+  ++impl_->frames;
+  ++impl_->open_frames;
+  if (impl_->segment_is_due()) impl_->close_segment();
+}
+
+void Series::close() {
+  if (impl_->file) impl_->close_segment();
+}
+
+}   // namespace cablenet::output

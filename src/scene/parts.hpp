@@ -1,0 +1,93 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "cablenet/scene/scene.hpp"
+#include "yaml_reader.hpp"
+
+/// The scene between the file and scene::Scene: sections read one by one, names not yet resolved, repeats not yet
+/// expanded.  Tests: tests/unit/read_test.cpp
+namespace cablenet::scene {
+
+/// Names of one kind of thing, and where their copies stand in the expanded list.
+class Names {
+public:
+  explicit Names(std::string kind) : kind_(std::move(kind)) {}   ///< "point", "cable", ... for messages
+  /// @param copies  0: a single thing; n: repeated as name[0] .. name[n-1]
+  void add(const std::string& name, int first, int copies);
+  bool has(const std::string& name) const { return table_.count(name) > 0; }
+  /// First index and count of `name`, `name[k]` or all copies of a repeated `name`.
+  std::optional<std::pair<int, int>> find(const std::string& name) const;
+  /// The one thing that `name` is.  @throws InputError at `value` if there is none, or several.
+  int one(const Value& value, const std::string& name) const;
+  const std::vector<std::string>& all() const { return names_; }
+
+private:
+  struct Place {
+    int first, copies;
+  };
+  std::string kind_;
+  std::vector<std::string> names_;
+  std::unordered_map<std::string, Place> table_;
+};
+
+struct Reference {
+  enum class Kind { point, cable, net } kind;
+  std::string name;
+  double at = 0;               ///< along a cable [m]
+  std::array<int, 2> node{};   ///< of a net
+  Value value;                 ///< the whole reference
+};
+
+struct Repeat {
+  int count;
+  double every;     ///< along the tapped cable [m]
+  Vector3 offset;   ///< of each copy to the one before [m]
+  Value value;
+};
+
+struct PointDraft {
+  Point point;
+  Value value;
+  int copies = 0;   ///< 0: not repeated
+  Vector3 offset = Vector3::Zero();
+  std::string repeated_by;
+};
+
+struct CableDraft {
+  Cable cable;
+  Reference from, to;
+  std::optional<Repeat> repeat;
+  Value value;
+  int copies() const { return repeat ? repeat->count : 1; }
+};
+
+double read_gravity(const Section& top);
+Time read_time(const Section& top);
+/// @pre the scene's time is read.
+Output read_output(const Section& top, const Time&, const Names& points, const Names& cables, const Names& nets);
+std::vector<CableType> read_cable_types(const Section& top, Names& types);
+std::vector<PointDraft> read_points(const Section& top, const Time&);
+Motion read_motion(const Value&, const Vector3& position, const Time&);
+std::vector<CableDraft> read_cables(const Section& top, const Names& types);
+std::vector<Net> read_nets(const Section& top, const Names& types, Names& nets);
+
+/// @throws InputError if the scene has more nodes than an unknown's number can count.
+void check_size(const std::vector<CableDraft>&, const std::vector<Net>&, const Value& top);
+/// Puts `repeat` of the cables on the points that they repeat.
+void mark_repeated_points(const std::vector<CableDraft>&, std::vector<PointDraft>&);
+std::vector<Point> expand_points(const std::vector<PointDraft>&, Names& points);
+/// @throws InputError if taps go round in a circle.
+void check_circles(const std::vector<CableDraft>&);
+/// @throws InputError if a reference leads nowhere or past an end.
+std::vector<Cable> expand_cables(const std::vector<CableDraft>&, const Names& points, const Names& nets,
+                                 const std::vector<Net>&, Names& cables);
+/// What can be said only when all ends are known.
+void check_ends(const std::vector<CableDraft>&, const std::vector<Cable>&, const std::vector<PointDraft>&,
+                const std::vector<Point>&, const Time&);
+
+}   // namespace cablenet::scene

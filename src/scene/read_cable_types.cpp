@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "parts.hpp"
+
+namespace cablenet::scene {
+
+namespace {
+
+std::optional<double> read_area(const Section& section) {
+  std::optional<double> area;
+  if (const Value* value = section.find("diameter")) {
+    const double d = read_number(*value, Sign::positive, "m");
+    area = std::numbers::pi * d * d / 4;
+  }
+  if (const Value* value = section.find("area")) area = read_number(*value, Sign::positive, "m2");
+  return area;
+}
+
+struct PerArea {
+  const char* key;
+  const char* unit;
+};
+
+/// A property of the cross-section: `whole` as given, or `part` times the area.
+double read_whole(const Section& section, PerArea part, PerArea whole, const std::optional<double>& area) {
+  const Value* part_value = section.find(part.key);
+  const Value* whole_value = section.find(whole.key);
+  if (part_value != nullptr && whole_value != nullptr)
+    whole_value->fail(fmt::format("contradicts {}; expected one of the two. Remove one.", part.key));
+  if (whole_value != nullptr) return read_number(*whole_value, Sign::positive, whole.unit);
+  if (part_value == nullptr)
+    section.map().fail(fmt::format("{} is missing; expected {} [{}] or {} [{}], > 0. Add one of them.", part.key,
+                                   part.key, part.unit, whole.key, whole.unit));
+  const double value = read_number(*part_value, Sign::positive, part.unit);
+  if (!area)
+    section.map().fail(
+        fmt::format("area is missing: {} needs it. Add area [m2] or diameter [m], or give {} [{}] "
+                    "instead.",
+                    part.key, whole.key, whole.unit));
+  return value * *area;
+}
+
+CableType read_type(const Named& named) {
+  const char* advice = "Remove it: without fluid it does nothing.";
+  const Section section(named.value,
+                        {"area", "diameter", "density", "mass_per_length", "youngs_modulus", "axial_stiffness",
+                         "tension_only", "axial_damping", "rayleigh"},
+                        {{"normal_drag", advice}, {"tangential_drag", advice}, {"added_mass", advice}});
+  CableType type;
+  type.name = named.name;
+  const auto area = read_area(section);
+  type.mass_per_length = read_whole(section, {"density", "kg/m3"}, {"mass_per_length", "kg/m"}, area);
+  type.axial_stiffness = read_whole(section, {"youngs_modulus", "Pa"}, {"axial_stiffness", "N"}, area);
+  if (const Value* value = section.find("tension_only")) type.tension_only = read_boolean(*value);
+  if (const Value* value = section.find("axial_damping"))
+    type.axial_damping = read_number(*value, Sign::not_negative, "N s");
+  if (const Value* value = section.find("rayleigh")) {
+    const Section rayleigh(*value, {"mass", "stiffness"});
+    if (const Value* mass = rayleigh.find("mass")) type.rayleigh_mass = read_number(*mass, Sign::not_negative, "1/s");
+    if (const Value* stiffness = rayleigh.find("stiffness"))
+      type.rayleigh_stiffness = read_number(*stiffness, Sign::not_negative, "s");
+  }
+  return type;
+}
+
+}   // namespace
+
+std::vector<CableType> read_cable_types(const Section& top, Names& names) {
+  const std::string expected = "a map from names to cable types";
+  std::vector<CableType> types;
+  for (const Named& named : read_named(top.require("cable_types", expected), expected)) {
+    names.add(named.name, static_cast<int>(types.size()), 0);
+    types.push_back(read_type(named));
+  }
+  return types;
+}
+
+}   // namespace cablenet::scene

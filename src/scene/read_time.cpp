@@ -1,0 +1,111 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "parts.hpp"
+#include "spelling.hpp"
+
+namespace cablenet::scene {
+
+namespace {
+
+constexpr double most_steps = 2147483647;
+constexpr double default_dissipation = 0.05;
+
+double read_radius(const Value& value) {
+  const double radius = read_number(value, Sign::not_negative, "");
+  if (radius > 1) value.refuse("a number in 0..1", "0 damps most, 1 nothing.");
+  return radius;
+}
+
+void read_scheme(const Section& section, Time& time) {
+  const Value* scheme = section.find("scheme");
+  const Value* radius = section.find("spectral_radius");
+  if (scheme == nullptr) {
+    time.scheme = radius != nullptr ? Scheme::generalized_alpha : Scheme::energy_momentum;
+  } else {
+    const Scheme schemes[] = {Scheme::energy_momentum, Scheme::generalized_alpha, Scheme::plain};
+    time.scheme = schemes[read_choice(*scheme, {"energy_momentum", "generalized_alpha", "plain"})];
+  }
+  if (time.scheme == Scheme::energy_momentum) {
+    if (radius != nullptr)
+      radius->fail("energy_momentum has none. Remove spectral_radius, or choose scheme: generalized_alpha.");
+    time.axial_dissipation = scheme != nullptr ? 0 : default_dissipation;
+    time.spectral_radius = 1;
+  } else {
+    time.spectral_radius = radius != nullptr ? read_radius(*radius) : 0.8;
+  }
+}
+
+void read_history(const Value& value, const Names& points, const Names& cables, const Names& nets, Output& output) {
+  std::set<std::pair<HistoryKind, int>> seen;
+  for (const Value& item : read_list(value, "a list of names of points and cables")) {
+    const std::string name = read_text(item, "a name of a point or a cable; one with brackets in quotes");
+    const auto point = points.find(name);
+    const auto found = point ? point : cables.find(name);
+    if (!found) {
+      if (nets.has(name)) item.fail(fmt::format("{} is a net; expected points and cables. Remove it.", name));
+      std::vector<std::string> known = points.all();
+      known.insert(known.end(), cables.all().begin(), cables.all().end());
+      item.fail(fmt::format("{} is no point or cable; expected one of: {}.{} Correct or remove it.", name,
+                            listed(known), did_you_mean(name, known)));
+    }
+    const HistoryKind kind = point ? HistoryKind::point : HistoryKind::cable;
+    for (int i = found->first; i < found->first + found->second; ++i) {
+      if (!seen.insert({kind, i}).second)
+        item.fail(fmt::format("{} is already in the list; expected each once. Remove it.", name));
+      output.history.push_back({kind, i});
+    }
+  }
+}
+
+}   // namespace
+
+double read_gravity(const Section& top) {
+  const Value* value = top.find("environment");
+  if (value == nullptr) return Scene().gravity;
+  const Section section(*value, {"gravity"},
+                        {{"fluid", "Remove it: the scene then runs in vacuum."},
+                         {"seabed", "Remove it: the scene then runs without contact."}});
+  const Value* gravity = section.find("gravity");
+  return gravity != nullptr ? read_number(*gravity, Sign::not_negative, "m/s2") : Scene().gravity;
+}
+
+Time read_time(const Section& top) {
+  const Value* value = top.find("time");
+  if (value == nullptr)
+    top.map().fail("time is missing: the static equilibrium alone is not supported yet: add time: {end, step}.");
+  const Section section(*value, {"start", "end", "step", "scheme", "spectral_radius"},
+                        {{"adaptive", "Remove it: the step then stays as given by step."}});
+  Time time;
+  if (const Value* start = section.find("start")) time.start = read_number(*start, Sign::any, "s");
+  const Value& end = section.require("end", "a number > start [s]");
+  time.end = read_number(end, Sign::any, "s");
+  if (!(time.end > time.start))
+    end.refuse(fmt::format("a number > start, which is {} [s]", time.start), "Correct end or start.");
+  const Value& step = section.require("step", "a number > 0 [s]");
+  time.step = read_number(step, Sign::positive, "s");
+  const double duration = time.end - time.start;
+  if (time.step > duration * (1 + 1e-12))
+    step.refuse(fmt::format("a number <= end - start, which is {} [s]", duration), "Make the step smaller.");
+  if (!(duration / time.step < most_steps))
+    step.refuse(fmt::format("at most {:.0f} steps from start to end", most_steps), "Make the step larger.");
+  read_scheme(section, time);
+  return time;
+}
+
+Output read_output(const Section& top, const Time& time, const Names& points, const Names& cables, const Names& nets) {
+  Output output;
+  output.interval = (time.end - time.start) / 100;
+  const Value* value = top.find("output");
+  if (value == nullptr) return output;
+  const Section section(*value, {"interval", "history", "energy"});
+  if (const Value* interval = section.find("interval"))
+    output.interval = read_number(*interval, Sign::not_negative, "s");
+  if (const Value* energy = section.find("energy")) output.energy = read_boolean(*energy);
+  if (const Value* history = section.find("history")) read_history(*history, points, cables, nets, output);
+  return output;
+}
+
+}   // namespace cablenet::scene

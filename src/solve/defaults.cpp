@@ -1,0 +1,46 @@
+#include "cablenet/solve/defaults.hpp"
+
+#include "cablenet/petsc/handle.hpp"
+
+namespace cablenet::solve {
+
+using petsc::check;
+
+void configure_linear_solver(KSP ksp) {
+  PetscMPIInt ranks = 1;
+  MPI_Comm_size(PetscObjectComm(reinterpret_cast<PetscObject>(ksp)), &ranks);
+  PC pc = nullptr;
+  check(KSPSetType(ksp, KSPPREONLY));
+  check(KSPGetPC(ksp, &pc));
+  check(PCSetType(pc, PCLU));
+  check(PCFactorSetMatSolverType(pc, ranks == 1 ? MATSOLVERPETSC : MATSOLVERMUMPS));
+  if (ranks == 1) check(PCFactorSetMatOrderingType(pc, MATORDERINGNATURAL));
+  check(KSPSetFromOptions(ksp));
+}
+
+void configure_newton(SNES snes, double force_tolerance) {
+  SNESLineSearch search = nullptr;
+  check(SNESGetLineSearch(snes, &search));
+  check(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
+  // A good first guess makes relative tests unreachable, and Newton's first correction may pass through a much larger
+  // residual (a turned stiff element is a stretched one), so the divergence test is off.
+  check(SNESSetTolerances(snes, force_tolerance, 0, 0, 25, -1));
+  check(SNESSetDivergenceTolerance(snes, -1));
+}
+
+std::string describe_linear_solver(KSP ksp) {
+  PC pc = nullptr;
+  KSPType ksp_type = nullptr;
+  PCType pc_type = nullptr;
+  MatSolverType package = nullptr;
+  check(KSPGetPC(ksp, &pc));
+  check(KSPGetType(ksp, &ksp_type));
+  check(PCGetType(pc, &pc_type));
+  std::string text = std::string(ksp_type) + " + " + pc_type;
+  const std::string kind = pc_type;
+  if (kind == PCLU || kind == PCCHOLESKY) check(PCFactorGetMatSolverType(pc, &package));
+  if (package != nullptr) text += " (" + std::string(package) + ")";
+  return text;
+}
+
+}   // namespace cablenet::solve

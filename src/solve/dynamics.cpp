@@ -1,0 +1,218 @@
+#include "cablenet/solve/dynamics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "alpha_parameters.hpp"
+#include "cablenet/base/errors.hpp"
+#include "cablenet/solve/defaults.hpp"
+
+namespace cablenet::solve {
+namespace {
+
+using petsc::check;
+
+/// Newton's tolerance over the forces at the start.
+constexpr double relative_force_tolerance = 1e-10;
+
+bool has_option(const char* name) {
+  PetscBool found = PETSC_FALSE;
+  check(PetscOptionsHasName(nullptr, nullptr, name, &found));
+  return found == PETSC_TRUE;
+}
+
+}   // namespace
+
+Dynamics::Dynamics(system::Assembler& assembler, const scene::Time& time, double output_interval)
+    : assembler_(assembler),
+      time_(time),
+      schedule_(time.start, time.end, time.step, output_interval),
+      scales_(assembler.force_scales()),
+      user_line_search_(has_option("-snes_linesearch_type")) {
+  for (auto* vector : {&x_, &v_, &a_, &x0_, &v0_, &start_acceleration_, &stepper_acceleration_})
+    *vector = assembler_.make_vector();
+  matrix_ = assembler_.make_matrix();
+  assembler_.fill_initial(x_, v_);
+  create_stepper();
+}
+
+void Dynamics::create_stepper() {
+  check(TSCreate(assembler_.communicator(), stepper_.out()));
+  check(TSSetType(stepper_, TSALPHA2));
+  check(TSAlpha2SetRadius(stepper_, time_.spectral_radius));
+  check(TSSetApplicationContext(stepper_, this));
+  check(TSSetI2Function(stepper_, nullptr, residual, this));
+  check(TSSetI2Jacobian(stepper_, matrix_, matrix_, jacobian, this));
+  check(TSSetPreStage(stepper_, before_stage));
+  check(TS2SetSolution(stepper_, x_, v_));
+  check(TSSetTime(stepper_, time_.start));
+  check(TSSetTimeStep(stepper_, time_.step));
+  check(TSSetMaxTime(stepper_, time_.end));
+  check(TSSetMaxSteps(stepper_, PETSC_MAX_INT));
+  check(TSSetExactFinalTime(stepper_, TS_EXACTFINALTIME_STEPOVER));
+  check(TSSetMaxSNESFailures(stepper_, -1));
+  check(TSSetErrorIfStepFails(stepper_, PETSC_FALSE));
+  TSAdapt adapt = nullptr;
+  SNES snes = nullptr;
+  KSP ksp = nullptr;
+  check(TSGetAdapt(stepper_, &adapt));
+  check(TSAdaptSetType(adapt, TSADAPTNONE));
+  check(TSGetSNES(stepper_, &snes));
+  check(SNESGetKSP(snes, &ksp));
+  configure_newton(snes, relative_force_tolerance * scales_.load);
+  check(SNESSetConvergenceTest(snes, converged, this, nullptr));
+  check(SNESSetComputeInitialGuess(snes, predict, this));
+  configure_linear_solver(ksp);
+  check(TSSetFromOptions(stepper_));
+
+  PetscBool fixed_steps = PETSC_TRUE;
+  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(adapt), TSADAPTNONE, &fixed_steps));
+  user_adapts_ = fixed_steps == PETSC_FALSE;
+  PetscReal step = time_.step, end = time_.end;
+  check(TSGetTimeStep(stepper_, &step));
+  check(TSGetMaxTime(stepper_, &end));
+  const double interval = schedule_.interval();
+  schedule_ = Schedule(time_.start, std::min<double>(end, time_.end), step, interval);
+}
+
+Instant Dynamics::instant() const { return {schedule_.time(), counts_.steps, x_, v_, a_}; }
+
+/// M a0 = f(t0, x0, v0).
+void Dynamics::solve_initial_acceleration() {
+  petsc::Handle<KSP, KSPDestroy> ksp;
+  check(KSPCreate(assembler_.communicator(), ksp.out()));
+  configure_linear_solver(ksp);
+  assembler_.force(time_.start, x_, v_, x0_);
+  assembler_.mass_matrix(matrix_);
+  check(KSPSetOperators(ksp, matrix_, matrix_));
+  check(KSPSolve(ksp, x0_, start_acceleration_));
+  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+  check(KSPGetConvergedReason(ksp, &reason));
+  if (reason < 0)
+    throw SolverError(
+        fmt::format("the first acceleration could not be solved for: the linear solver stopped with {}; "
+                    "try it without -ksp_type and -pc_type options",
+                    KSPConvergedReasons[reason]));
+  check(VecCopy(start_acceleration_, a_));
+  check(VecCopy(start_acceleration_, stepper_acceleration_));
+}
+
+Verdict Dynamics::run(const Observers& observers) {
+  solve_initial_acceleration();
+  observers.output(instant());
+  PetscInt most_steps = 0;
+  check(TSGetMaxSteps(stepper_, &most_steps));
+  while (!schedule_.at_end()) {
+    if (counts_.steps >= most_steps) {
+      if (!schedule_.at_output()) observers.output(instant());
+      return Verdict::stopped;
+    }
+    if (!step(schedule_.next_step())) {
+      if (!schedule_.at_output()) observers.output(instant());
+      return Verdict::failed;
+    }
+    observers.step(schedule_.time(), last_step_, counts_);
+    if (schedule_.at_output()) observers.output(instant());
+  }
+  return schedule_.time() < time_.end ? Verdict::stopped : Verdict::finished;
+}
+
+bool Dynamics::step(double dt) {
+  const double t = schedule_.time();
+  check(VecCopy(x_, x0_));
+  check(VecCopy(v_, v0_));
+  assembler_.begin_step(t, x_, v_);
+  if (schedule_.at_output()) check(VecNorm(x_, NORM_INFINITY, &furthest_));
+  check(TSSetTime(stepper_, t));
+  check(TSSetTimeStep(stepper_, dt));
+  attempts_ = 0;
+  check(TSStep(stepper_));
+  TSConvergedReason reason = TS_CONVERGED_ITERATING;
+  check(TSGetConvergedReason(stepper_, &reason));
+  PetscInt rejected = 0, newton = 0, linear = 0;
+  check(TSGetStepRejections(stepper_, &rejected));
+  check(TSGetSNESIterations(stepper_, &newton));
+  check(TSGetKSPIterations(stepper_, &linear));
+  const bool retried = rejected > counts_.rejected;
+  counts_ = {counts_.steps, rejected, newton, linear};
+  choose_line_search(false);
+  if (reason < 0) {
+    explain_failure();
+    return false;
+  }
+  PetscReal reached = 0, next = 0;
+  check(TSGetTime(stepper_, &reached));
+  check(TSGetTimeStep(stepper_, &next));
+  last_step_ = retried ? reached - t : dt;
+  ++counts_.steps;
+  assembler_.add_work({t, last_step_, alpha_parameters(stepper_).alpha_f, 0});
+  update_acceleration(last_step_);
+  schedule_.advance(last_step_, retried);
+  if (user_adapts_) schedule_.set_limit(next);
+  check(TSMonitor(stepper_, static_cast<PetscInt>(counts_.steps), schedule_.time(), x_));
+  return true;
+}
+
+/// TSALPHA2 keeps its acceleration to itself, so it is computed again by the same formula.  At spectral radius 1 it
+/// alternates about the truth and the step's mean is reported instead.
+void Dynamics::update_acceleration(double dt) {
+  const AlphaParameters p = alpha_parameters(stepper_);
+  Vec A = stepper_acceleration_;
+  check(VecScale(A, -(1 - 2 * p.beta) / (2 * p.beta)));
+  check(VecAXPBYPCZ(A, 1 / (p.beta * dt * dt), -1 / (p.beta * dt * dt), 1, x_, x0_));
+  check(VecAXPY(A, -1 / (p.beta * dt), v0_));
+  const bool alternates = p.alpha_m == 0.5 && p.alpha_f == 0.5;
+  if (alternates) {
+    check(VecCopy(v_, a_));
+    check(VecAXPY(a_, -1, v0_));
+    check(VecScale(a_, 1 / dt));
+  } else {
+    check(VecCopy(A, a_));
+  }
+}
+
+void Dynamics::explain_failure() {
+  SNES snes = nullptr;
+  SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
+  PetscReal dt = 0;
+  check(TSGetSNES(stepper_, &snes));
+  check(SNESGetConvergedReason(snes, &reason));
+  check(TSGetTimeStep(stepper_, &dt));
+  failure_ = fmt::format("Newton's method failed ({}) with steps down to {:.3g} s", SNESConvergedReasons[reason], dt);
+}
+
+int Dynamics::failed_element() {
+  SNES snes = nullptr;
+  Vec r = nullptr;
+  check(TSGetSNES(stepper_, &snes));
+  check(SNESGetFunction(snes, &r, nullptr, nullptr));
+  const auto& network = assembler_.network();
+  const double* values = nullptr;
+  check(VecGetArrayRead(r, &values));
+  struct {
+    double size;
+    int element;
+  } worst{-1, 0};
+  for (std::size_t i = 0; i < network.elements.size(); ++i)
+    for (const int node : network.elements[i].node)
+      if (node < network.owned) {
+        const double size = Eigen::Map<const Vector3>(values + 3 * node).norm();
+        if (size > worst.size || std::isnan(size)) worst = {std::isnan(size) ? 1e300 : size, network.scene_element[i]};
+      }
+  check(VecRestoreArrayRead(r, &values));
+  if (assembler_.coincident_element() >= 0) worst = {1e301, assembler_.coincident_element()};
+  MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, assembler_.communicator());
+  return worst.element;
+}
+
+std::string Dynamics::linear_solver() const {
+  SNES snes = nullptr;
+  KSP ksp = nullptr;
+  check(TSGetSNES(stepper_, &snes));
+  check(SNESGetKSP(snes, &ksp));
+  return describe_linear_solver(ksp);
+}
+
+}   // namespace cablenet::solve

@@ -1,0 +1,107 @@
+#include "alpha_parameters.hpp"
+#include "cablenet/solve/dynamics.hpp"
+
+/// What TSALPHA2 and its SNES call back.
+namespace cablenet::solve {
+namespace {
+
+using petsc::check;
+
+/// TSALPHA2's estimate of the first acceleration doubled it before PETSc 3.22.
+constexpr double start_factor = PETSC_VERSION_LT(3, 22, 0) ? 0.5 : 1.0;
+
+}   // namespace
+
+bool Dynamics::in_start_phase() const {
+  const AlphaParameters p = alpha_parameters(stepper_);
+  return p.alpha_m == 1 && p.alpha_f == 1 && p.gamma == 1 && p.beta == 0.5;
+}
+
+system::Stage Dynamics::stage() const {
+  PetscReal dt = 0;
+  check(TSGetTimeStep(stepper_, &dt));
+  const AlphaParameters p = alpha_parameters(stepper_);
+  return {schedule_.time(), dt, p.alpha_f, p.alpha_m};
+}
+
+double Dynamics::rounding() const {
+  const AlphaParameters p = alpha_parameters(stepper_);
+  const double dt = stage().dt;
+  return scales_.rounding(furthest_, p.alpha_m / (p.alpha_f * p.beta * dt * dt)) / p.alpha_f;
+}
+
+/// A retry searches the line as well; the next step is cheap again.
+void Dynamics::choose_line_search(bool retry) {
+  if (user_line_search_) return;
+  SNES snes = nullptr;
+  SNESLineSearch search = nullptr;
+  check(TSGetSNES(stepper_, &snes));
+  check(SNESGetLineSearch(snes, &search));
+  check(SNESLineSearchSetType(search, retry ? SNESLINESEARCHBT : SNESLINESEARCHBASIC));
+}
+
+PetscErrorCode Dynamics::residual(TS ts, PetscReal, Vec x, Vec v, Vec a, Vec r, void* self) noexcept {
+  PetscFunctionBeginUser;
+  auto& run = *static_cast<Dynamics*>(self);
+  if (run.in_start_phase()) {
+    PetscCall(VecWAXPY(r, -start_factor, run.start_acceleration_, a));
+    PetscFunctionReturn(0);
+  }
+  if (!run.assembler_.residual(run.stage(), x, v, a, r)) {
+    SNES snes = nullptr;
+    PetscCall(TSGetSNES(ts, &snes));
+    PetscCall(SNESSetFunctionDomainError(snes));
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Dynamics::jacobian(TS, PetscReal, Vec, Vec, Vec, PetscReal shift_v, PetscReal shift_a, Mat J, Mat P,
+                                  void* self) noexcept {
+  PetscFunctionBeginUser;
+  auto& run = *static_cast<Dynamics*>(self);
+  if (run.in_start_phase())
+    run.assembler_.scaled_identity(shift_a, P);
+  else
+    run.assembler_.jacobian(run.stage(), shift_v, shift_a, P);
+  if (J != P) {
+    PetscCall(MatAssemblyBegin(J, MAT_FINAL_ASSEMBLY));
+    PetscCall(MatAssemblyEnd(J, MAT_FINAL_ASSEMBLY));
+  }
+  PetscFunctionReturn(0);
+}
+
+/// x + dt v + dt^2/2 a.
+PetscErrorCode Dynamics::predict(SNES, Vec x, void* self) noexcept {
+  PetscFunctionBeginUser;
+  auto& run = *static_cast<Dynamics*>(self);
+  if (run.in_start_phase()) PetscFunctionReturn(0);
+  const PetscReal dt = run.stage().dt;
+  PetscCall(VecCopy(run.x0_, x));
+  PetscCall(VecAXPBYPCZ(x, dt, dt * dt / 2, 1, run.v0_, run.a_));
+  PetscFunctionReturn(0);
+}
+
+/// PETSc's default test; beside it, a residual that is down to rounding and no longer falls is as good as it gets.
+PetscErrorCode Dynamics::converged(SNES snes, PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm,
+                                   SNESConvergedReason* reason, void* self) noexcept {
+  PetscFunctionBeginUser;
+  auto& run = *static_cast<Dynamics*>(self);
+  PetscCall(SNESConvergedDefault(snes, iteration, xnorm, snorm, fnorm, reason, nullptr));
+  const bool linear_and_solved = run.in_start_phase() && iteration >= 1;
+  // The careful line search of a retry cannot go below rounding at all, and would call that a failure.
+  const bool settled = fnorm > 0.25 * run.previous_norm_ || run.attempts_ > 1;
+  const bool at_rounding = iteration >= 1 && settled && fnorm <= 8 * run.rounding();
+  if (*reason == SNES_CONVERGED_ITERATING && (linear_and_solved || at_rounding)) *reason = SNES_CONVERGED_FNORM_ABS;
+  run.previous_norm_ = fnorm;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Dynamics::before_stage(TS ts, PetscReal) noexcept {
+  PetscFunctionBeginUser;
+  Dynamics* run = nullptr;
+  PetscCall(TSGetApplicationContext(ts, &run));
+  if (!run->in_start_phase() && run->attempts_++ == 1) run->choose_line_search(true);
+  PetscFunctionReturn(0);
+}
+
+}   // namespace cablenet::solve

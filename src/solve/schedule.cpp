@@ -1,0 +1,50 @@
+#include "cablenet/solve/schedule.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cablenet::solve {
+namespace {
+
+constexpr double rounding = 1e-9;   // of a step: what accumulated rounding of times may amount to
+
+}   // namespace
+
+Schedule::Schedule(double start, double end, double step, double interval)
+    : start_(start), end_(end), step_(step), interval_(interval), t_(start), limit_(step) {
+  plan();
+}
+
+double Schedule::goal() const {
+  if (interval_ <= 0) return end_;
+  const double next = start_ + interval_ * static_cast<double>(outputs_ + 1);
+  return next > end_ - rounding * step_ ? end_ : next;
+}
+
+void Schedule::plan() {
+  const double span = goal() - t_;
+  from_ = t_;
+  done_ = 0;
+  total_ = std::max(1L, static_cast<long>(std::ceil(span / limit_ * (1 - rounding))));
+  h_ = span / static_cast<double>(total_);
+}
+
+void Schedule::advance(double taken, bool retried) {
+  const bool as_planned = std::abs(taken - h_) <= rounding * h_;
+  if (as_planned) ++done_;
+  const bool reached = done_ == total_;
+  t_ = reached ? goal() : as_planned ? from_ + static_cast<double>(done_) * h_ : t_ + taken;
+  at_output_ = reached || interval_ <= 0;
+  if (reached) ++outputs_;
+  const double old_limit = limit_;
+  if (retried) limit_ = std::min(limit_, taken);
+  if (!retried && limit_ < step_) limit_ = std::min(step_, 2 * limit_);
+  if (reached || !as_planned || limit_ != old_limit) plan();
+}
+
+void Schedule::set_limit(double wanted) {
+  limit_ = wanted;
+  plan();
+}
+
+}   // namespace cablenet::solve

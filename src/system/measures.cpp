@@ -1,0 +1,80 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cablenet/system/assembler.hpp"
+#include "element_loop.hpp"
+
+namespace cablenet::system {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+double square(double value) { return value * value; }
+
+}   // namespace
+
+double ForceScales::rounding(double furthest, double shift_a) const {
+  return std::numeric_limits<double>::epsilon() * furthest * (stiffness + shift_a * mass);
+}
+
+const LocalState& Assembler::observe(double t, Vec x, Vec v, Vec a) {
+  state_.t = t;
+  scatter(x, state_.x);
+  scatter(v, state_.v);
+  scatter(a, state_.a);
+  for (const auto& [node, motion] : network_.prescribed) {
+    const scene::Kinematics k = motion.at(t);
+    LocalState::at(state_.x, node) = k.x;
+    LocalState::at(state_.v, node) = k.v;
+    LocalState::at(state_.a, node) = k.a;
+  }
+  return state_;
+}
+
+Energies Assembler::energies() const {
+  Energies sum;
+  for_each_element(network_, [&](std::size_t, const partition::LocalElement& e) {
+    const elements::CableMaterial& material = network_.materials[at(e.material)];
+    const auto v1 = LocalState::at(state_.v, e.node[0]);
+    const auto v2 = LocalState::at(state_.v, e.node[1]);
+    const double height = 0.5 * (state_.x[3 * at(e.node[0]) + 2] + state_.x[3 * at(e.node[1]) + 2]);
+    sum.kinetic += elements::cable_kinetic_energy(material, e.length, v1, v2);
+    sum.strain += elements::cable_strain_energy(material, e.length, state_.chord(e).d);
+    sum.gravity += material.mass_per_length * e.length * network_.gravity * height;
+    return true;
+  });
+  sum.work = work_;
+  for (const auto& [node, mass, force] : network_.loads) {
+    const auto x = LocalState::at(state_.x, node);
+    sum.kinetic += 0.5 * mass * LocalState::at(state_.v, node).squaredNorm();
+    sum.gravity += mass * network_.gravity * x.z();
+    sum.work += force.dot(x - network_.position[at(node)]);
+  }
+  return sum;
+}
+
+ForceScales Assembler::force_scales() {
+  for (auto [vector, values] : {std::pair{&state_.x, &network_.position}, std::pair{&state_.v, &network_.velocity}})
+    for (int i = 0; i < network_.nodes; ++i) LocalState::at(*vector, i) = (*values)[at(i)];
+  double load = 0, stiffness = 0, mass = 0;
+  for_each_element(network_, [&](std::size_t, const partition::LocalElement& e) {
+    const elements::CableMaterial& material = network_.materials[at(e.material)];
+    const double m = material.mass_per_length * e.length;
+    const double speed =
+        std::max(LocalState::at(state_.v, e.node[0]).norm(), LocalState::at(state_.v, e.node[1]).norm());
+    const double tension = elements::cable_tension(material, e.length, state_.chord(e));
+    load += square(tension) + square(m * network_.gravity) + square(m * speed * speed / e.length);
+    stiffness += square(2 * material.axial_stiffness / e.length);
+    mass += square(m);
+    return true;
+  });
+  for (const auto& item : network_.loads) {
+    load += square(item.mass * network_.gravity) + item.force.squaredNorm();
+    mass += square(item.mass);
+  }
+  double sums[] = {load, stiffness, mass};
+  MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, communicator_);
+  return {std::sqrt(sums[0]), std::sqrt(sums[1]), std::sqrt(sums[2])};
+}
+
+}   // namespace cablenet::system

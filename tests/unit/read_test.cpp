@@ -1,0 +1,249 @@
+#include "cablenet/scene/read.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+#include "cablenet/base/errors.hpp"
+
+namespace cablenet::scene {
+namespace {
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+Scene everything() {
+  const auto tests = std::filesystem::path(__FILE__).parent_path().parent_path();
+  return read_scene(text_of(tests / "cases/valid/everything.yaml"), "everything.yaml");
+}
+
+const std::string types = "cable_types: {rope: {mass_per_length: 1, axial_stiffness: 1}}\n";
+const std::string ends = "points: {a: {position: [0, 0, 0], motion: fixed}, b: {position: [1, 0, 0]}}\n";
+const std::string one_cable = "cables: {c: {type: rope, from: a, to: b, elements: 1}}\n";
+
+/// The smallest scene, with `time` written as given.
+Scene with_time(const std::string& time) {
+  return read_scene(types + ends + one_cable + "time: {" + time + "}\n", "small.yaml");
+}
+
+std::string message(const std::string& text) {
+  try {
+    read_scene(text, "bad.yaml");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+void expect_message(const std::string& text, const std::vector<std::string>& parts) {
+  const std::string found = message(text);
+  for (const std::string& part : parts) EXPECT_NE(found.find(part), std::string::npos) << found;
+  EXPECT_EQ(found.find('\n'), std::string::npos);
+}
+
+template <class T>
+int index_of(const std::vector<T>& list, const std::string& name) {
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (list[i].name == name) return static_cast<int>(i);
+  return -1;
+}
+
+TEST(Read, CableTypes) {
+  const Scene scene = everything();
+  ASSERT_EQ(scene.cable_types.size(), 2u);
+  const CableType& steel = scene.cable_types[0];
+  EXPECT_EQ(steel.name, "steel");
+  EXPECT_DOUBLE_EQ(steel.mass_per_length, 7800 * 1.962e-5);
+  EXPECT_DOUBLE_EQ(steel.axial_stiffness, 53e9 * 1.962e-5);
+  EXPECT_TRUE(steel.tension_only);
+  EXPECT_EQ(steel.axial_damping, 12.5);
+  EXPECT_EQ(steel.rayleigh_mass, 0.1);
+  EXPECT_EQ(steel.rayleigh_stiffness, 1e-4);
+  const CableType& rope = scene.cable_types[1];
+  EXPECT_EQ(rope.mass_per_length, 0.25);
+  EXPECT_EQ(rope.axial_stiffness, 2e4);
+  EXPECT_FALSE(rope.tension_only);
+  EXPECT_EQ(rope.axial_damping, 0);
+}
+
+TEST(Read, DiameterGivesTheArea) {
+  const Scene scene = read_scene("cable_types: {rope: {diameter: 2, density: 3, youngs_modulus: 5}}\n" + ends +
+                                     one_cable + "time: {end: 1, step: 1}\n",
+                                 "small.yaml");
+  EXPECT_DOUBLE_EQ(scene.cable_types[0].mass_per_length, 3 * std::numbers::pi);
+  EXPECT_DOUBLE_EQ(scene.cable_types[0].axial_stiffness, 5 * std::numbers::pi);
+}
+
+TEST(Read, TopLevelKeys) {
+  const Scene scene = everything();
+  EXPECT_EQ(scene.title, "Every key that a scene may hold");
+  EXPECT_EQ(scene.gravity, 9.81);
+  EXPECT_EQ(scene.file, "everything.yaml");
+  EXPECT_EQ(scene.text.substr(0, 6), "title:");
+  EXPECT_EQ(with_time("end: 1, step: 1").gravity, 9.80665);
+}
+
+TEST(Read, Points) {
+  const Scene scene = everything();
+  const Point& pin = scene.points.at(1);
+  EXPECT_EQ(pin.name, "pin");
+  EXPECT_EQ(pin.where, "everything.yaml:21");
+  EXPECT_EQ(pin.mass, 2);
+  EXPECT_EQ(pin.force, Vector3(0, 0, -5));
+  ASSERT_TRUE(pin.motion);
+  EXPECT_EQ(pin.motion->at(9).x, Vector3(300, 0, 0));
+}
+
+TEST(Read, Motions) {
+  const Scene scene = everything();
+  const auto motion = [&](const char* name) {
+    return *scene.points.at(static_cast<std::size_t>(index_of(scene.points, name))).motion;
+  };
+  EXPECT_EQ(motion("tow").at(0.5).x, Vector3(0, 0, 0));
+  EXPECT_EQ(motion("tow").at(1.5).x, Vector3(3, 0, 0));
+  EXPECT_LT((motion("path").at(2).x - Vector3(1, 10, 0)).norm(), 1e-14);
+  EXPECT_LT((motion("swing").at(0).x - Vector3(0, 21, 2)).norm(), 1e-14);
+  EXPECT_NEAR(motion("written").at(1).v[0], 5 * std::cos(0.5), 1e-14);
+  EXPECT_NEAR(motion("written").at(0).x[2], std::numbers::pi, 1e-14);
+}
+
+TEST(Read, RepeatedPointsStandInPlaceOfTheirOriginal) {
+  const Scene scene = everything();
+  EXPECT_EQ(index_of(scene.points, "free[0]"), 2);
+  EXPECT_EQ(index_of(scene.points, "free[4]"), 6);
+  EXPECT_EQ(index_of(scene.points, "path"), 7);
+  EXPECT_EQ(index_of(scene.points, "free"), -1);
+  const Point& last = scene.points[6];
+  EXPECT_EQ(last.position, Vector3(240, 0, -20));
+  EXPECT_EQ(last.velocity, Vector3(1, 2, 3));
+  EXPECT_EQ(last.mass, 0.3);
+  EXPECT_EQ(last.force, Vector3(0, 0.5, 0));
+  EXPECT_FALSE(last.motion);
+  const Point& heaved = scene.points[static_cast<std::size_t>(index_of(scene.points, "heaved[2]"))];
+  EXPECT_LT((heaved.motion->at(0.5).x - Vector3(7, 0, -2)).norm(), 1e-14);
+}
+
+TEST(Read, RepeatedCablesAreTappedInEqualSteps) {
+  const Scene scene = everything();
+  const int first = index_of(scene.cables, "branch[0]");
+  EXPECT_EQ(first, 1);
+  const Cable& last = scene.cables[static_cast<std::size_t>(first) + 4];
+  EXPECT_EQ(last.name, "branch[4]");
+  EXPECT_EQ(std::get<TapEnd>(last.from).cable, index_of(scene.cables, "trunk"));
+  EXPECT_EQ(std::get<TapEnd>(last.from).at, 240);
+  EXPECT_EQ(std::get<PointEnd>(last.to).point, index_of(scene.points, "free[4]"));
+  EXPECT_EQ(last.shape, Shape::polyline);
+  EXPECT_EQ(last.polyline[1], Vector3(241, 0, -10));
+  EXPECT_EQ(last.node_velocity[2], Vector3(1, 2, 3));
+  const Cable& riser = scene.cables[static_cast<std::size_t>(index_of(scene.cables, "risers[2]"))];
+  EXPECT_EQ(std::get<TapEnd>(riser.to).at, 7);
+  EXPECT_EQ(std::get<PointEnd>(riser.from).point, index_of(scene.points, "heaved[2]"));
+}
+
+TEST(Read, ACableMayNameCopiesAndComeBeforeItsHost) {
+  const Scene scene = everything();
+  const Cable& hanger = scene.cables[0];
+  EXPECT_EQ(hanger.where, "everything.yaml:33");
+  EXPECT_EQ(std::get<TapEnd>(hanger.from).cable, index_of(scene.cables, "branch[2]"));
+  EXPECT_EQ(std::get<PointEnd>(hanger.to).point, index_of(scene.points, "free[0]"));
+  EXPECT_FALSE(hanger.length);
+  EXPECT_EQ(hanger.type, 1);
+  EXPECT_EQ(hanger.shape, Shape::straight);
+}
+
+TEST(Read, NetsAndCablesOnThem) {
+  const Scene scene = everything();
+  ASSERT_EQ(scene.nets.size(), 1u);
+  const Net& panel = scene.nets[0];
+  EXPECT_EQ(panel.corners[2], Vector3(10, 40, -5));
+  EXPECT_EQ(panel.meshes, (std::array<int, 2>{4, 2}));
+  EXPECT_EQ(panel.slack, 1.02);
+  EXPECT_EQ(panel.fixed, (std::vector<Edge>{Edge::top, Edge::left}));
+  const Cable& link = scene.cables.back();
+  EXPECT_EQ(std::get<NetEnd>(link.to).node, (std::array<int, 2>{4, 2}));
+  EXPECT_EQ(scene.cables[scene.cables.size() - 2].shape, Shape::catenary);
+}
+
+TEST(Read, TimeAndItsDefaults) {
+  const Time time = everything().time;
+  EXPECT_EQ(time.start, 0.5);
+  EXPECT_EQ(time.end, 3.5);
+  EXPECT_EQ(time.step, 2e-3);
+  EXPECT_EQ(time.scheme, Scheme::generalized_alpha);
+  EXPECT_EQ(time.spectral_radius, 0.6);
+  EXPECT_EQ(with_time("end: 1, step: 1").time.start, 0);
+}
+
+TEST(Read, SchemeDefaults) {
+  const Time none = with_time("end: 1, step: 0.1").time;
+  EXPECT_EQ(none.scheme, Scheme::energy_momentum);
+  EXPECT_EQ(none.spectral_radius, 1);
+  EXPECT_EQ(none.axial_dissipation, 0.05);
+  const Time named = with_time("end: 1, step: 0.1, scheme: energy_momentum").time;
+  EXPECT_EQ(named.scheme, Scheme::energy_momentum);
+  EXPECT_EQ(named.axial_dissipation, 0);
+  const Time radius = with_time("end: 1, step: 0.1, spectral_radius: 0.3").time;
+  EXPECT_EQ(radius.scheme, Scheme::generalized_alpha);
+  EXPECT_EQ(radius.spectral_radius, 0.3);
+  EXPECT_EQ(with_time("end: 1, step: 0.1, scheme: generalized_alpha").time.spectral_radius, 0.8);
+  const Time plain = with_time("end: 1, step: 0.1, scheme: plain").time;
+  EXPECT_EQ(plain.scheme, Scheme::plain);
+  EXPECT_EQ(plain.spectral_radius, 0.8);
+}
+
+TEST(Read, OutputAndItsDefaults) {
+  const Scene scene = everything();
+  EXPECT_EQ(scene.output.interval, 1e-2);
+  EXPECT_TRUE(scene.output.energy);
+  ASSERT_EQ(scene.output.history.size(), 8u);
+  EXPECT_EQ(scene.output.history[0].kind, HistoryKind::point);
+  EXPECT_EQ(scene.output.history[4].index, index_of(scene.points, "free[4]"));
+  EXPECT_EQ(scene.output.history[5].kind, HistoryKind::cable);
+  EXPECT_EQ(scene.output.history[5].index, index_of(scene.cables, "branch[3]"));
+  const Output none = with_time("end: 4, step: 0.1").output;
+  EXPECT_EQ(none.interval, 0.04);
+  EXPECT_TRUE(none.history.empty());
+  EXPECT_FALSE(none.energy);
+}
+
+TEST(Read, ATapWithinRoundingOfTheEndIsAtTheEnd) {
+  const Scene scene = read_scene(
+      types +
+          "points: {a: {position: [0, 0, 0], motion: fixed}, b: {position: [1, 0, 0]}, c: {position: [0, 0, -1]}}\n"
+          "cables:\n"
+          "  trunk: {type: rope, from: a, to: b, length: 0.3, elements: 3}\n"
+          "  drop: {type: rope, from: {cable: trunk, at: 0}, to: c, elements: 1,\n"
+          "         repeat: {count: 4, every: 0.1, offset: [1, 0, 0]}}\n"
+          "time: {end: 1, step: 1}\n",
+      "small.yaml");
+  EXPECT_EQ(std::get<TapEnd>(scene.cables[4].from).at, 0.3);
+}
+
+TEST(Read, MessagesNamePlaceValueAndRemedy) {
+  expect_message("cable_types:\n  steel:\n    area: -1\ntime: {end: 1, step: 1}\n",
+                 {"bad.yaml:3: cable_types.steel.area: -1 is not allowed; expected a number > 0 [m2]."});
+  expect_message("", {"bad.yaml:1: nothing is not allowed; expected a scene"});
+  expect_message("a: [1\nb: 2\n", {"bad.yaml:2: the file is no valid YAML"});
+  expect_message("tme: {}\n", {"bad.yaml:1: tme: unknown key", "Did you mean time?"});
+}
+
+TEST(Read, LongListsAreReadQuickly) {
+  std::ostringstream text;
+  text << types << "time: {end: 1, step: 1}\npoints:\n  p0: {position: [0, 0, 0], motion: fixed}\n";
+  const int count = 5000;
+  for (int i = 1; i <= count; ++i) text << "  p" << i << ": {position: [" << i << ", 0, 0]}\n";
+  text << "cables:\n";
+  for (int i = 1; i <= count; ++i)
+    text << "  c" << i << ": {type: rope, from: p" << i - 1 << ", to: p" << i << ", elements: 1}\n";
+  const Scene scene = read_scene(text.str(), "long.yaml");
+  EXPECT_EQ(scene.cables.size(), static_cast<std::size_t>(count));
+}
+
+}   // namespace
+}   // namespace cablenet::scene
