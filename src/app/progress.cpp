@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 
 namespace cablenet::app {
 namespace {
@@ -13,6 +15,14 @@ constexpr double plain_period = 5;
 
 double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
+/// mpirun gives its ranks a terminal of their own whatever its own output is, so it is asked itself, being the parent.
+bool output_is_terminal() {
+  if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) return isatty(STDOUT_FILENO) != 0;
+  std::error_code problem;
+  const std::string target = std::filesystem::read_symlink(fmt::format("/proc/{}/fd/1", getppid()), problem).string();
+  return !problem && (target.starts_with("/dev/pts/") || target.starts_with("/dev/tty"));
+}
+
 std::string clock_time(double s) {
   const long whole = static_cast<long>(s + 0.5);
   if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
@@ -21,7 +31,7 @@ std::string clock_time(double s) {
 
 }   // namespace
 
-Progress::Progress(double start, double end) : start_(start), end_(end), terminal_(isatty(STDOUT_FILENO) != 0) {}
+Progress::Progress(double start, double end) : start_(start), end_(end), terminal_(output_is_terminal()) {}
 
 void Progress::step(double t, double dt, long steps, long newton) {
   const Clock::time_point now = Clock::now();

@@ -81,16 +81,26 @@ PetscErrorCode Dynamics::predict(SNES, Vec x, void* self) noexcept {
   PetscFunctionReturn(0);
 }
 
-/// PETSc's default test; beside it, a residual that is down to rounding and no longer falls is as good as it gets.
+/// Newton's error falls quadratically, f1 = c f0^2, so c tells how much of a residual that is down to rounding is still
+/// error.
+bool Dynamics::is_at_rounding(double norm, double rounding) {
+  const double error = curvature_ * previous_norm_ * previous_norm_;
+  if (norm > rounding) curvature_ = norm / (previous_norm_ * previous_norm_);
+  if (norm <= 0.5 * rounding && error <= 0.01 * rounding) return true;
+  // The careful line search of a retry cannot go below rounding at all, and would call that a failure.
+  const bool stuck = norm > 0.25 * previous_norm_ || attempts_ > 1;
+  return stuck && norm <= 8 * rounding;
+}
+
+/// PETSc's default test, and the one above: a relative test is of no use with a good first guess.
 PetscErrorCode Dynamics::converged(SNES snes, PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm,
                                    SNESConvergedReason* reason, void* self) noexcept {
   PetscFunctionBeginUser;
   auto& run = *static_cast<Dynamics*>(self);
   PetscCall(SNESConvergedDefault(snes, iteration, xnorm, snorm, fnorm, reason, nullptr));
   const bool linear_and_solved = run.in_start_phase() && iteration >= 1;
-  // The careful line search of a retry cannot go below rounding at all, and would call that a failure.
-  const bool settled = fnorm > 0.25 * run.previous_norm_ || run.attempts_ > 1;
-  const bool at_rounding = iteration >= 1 && settled && fnorm <= 8 * run.rounding();
+  const double rounding = iteration >= 1 && !linear_and_solved ? run.rounding() : 0;
+  const bool at_rounding = iteration >= 1 && run.is_at_rounding(fnorm, rounding);
   if (*reason == SNES_CONVERGED_ITERATING && (linear_and_solved || at_rounding)) *reason = SNES_CONVERGED_FNORM_ABS;
   run.previous_norm_ = fnorm;
   PetscFunctionReturn(0);

@@ -2,6 +2,7 @@
 #include <petscts.h>
 
 #include <functional>
+#include <limits>
 #include <string>
 
 #include "cablenet/scene/scene.hpp"
@@ -64,6 +65,7 @@ private:
   void update_acceleration(double dt);
   bool in_start_phase() const;
   double rounding() const;
+  bool is_at_rounding(double norm, double rounding);
   system::Stage stage() const;
   Instant instant() const;
   void explain_failure();
@@ -88,10 +90,11 @@ private:
   TimeStepper stepper_;
   Counts counts_;
   std::string failure_;
-  double furthest_ = 0;   ///< largest coordinate [m]
-  double previous_norm_ = 0;
-  double last_step_ = 0;   ///< [s]
-  int attempts_ = 0;       ///< of the running step
+  double furthest_ = 0;                                          ///< largest coordinate [m]
+  double previous_norm_ = 0;                                     ///< of the residual, one Newton iteration ago [N]
+  double curvature_ = std::numeric_limits<double>::infinity();   ///< of Newton's convergence [1/N]
+  double last_step_ = 0;                                         ///< [s]
+  int attempts_ = 0;                                             ///< of the running step
   bool user_adapts_ = false;
   bool user_line_search_ = false;
 };
