@@ -1,7 +1,7 @@
 #include "cablenet/app/simulation.hpp"
 
 #include <fmt/format.h>
-#include <petscsys.h>
+#include <petscts.h>
 
 #include <chrono>
 #include <optional>
@@ -39,6 +39,20 @@ std::string text_option(const char* name) {
   return value;
 }
 
+/// The scene's, with what the command line overrides.  A spectral radius asks for the scheme that has one.
+scene::Time chosen_time(scene::Time time) {
+  PetscBool given = PETSC_FALSE;
+  check(PetscOptionsGetReal(nullptr, nullptr, "-ts_alpha_radius", &time.spectral_radius, &given));
+  if (given && !(time.spectral_radius >= 0 && time.spectral_radius <= 1))
+    throw InputError(
+        fmt::format("-ts_alpha_radius: {} is not allowed; expected a number from 0 to 1", time.spectral_radius));
+  if (given && time.scheme == scene::Scheme::energy_momentum) time.scheme = scene::Scheme::generalized_alpha;
+  const std::string type = text_option("-ts_type");
+  if (!type.empty() && type != TSALPHA2)
+    throw InputError(fmt::format("-ts_type: `{}` is not allowed; every scheme here runs in PETSc's alpha2", type));
+  return time;
+}
+
 system::ForceRule force_rule(const scene::Time& time) {
   system::ForceRule rule{time.scheme, time.axial_dissipation, elements::Tangent::exact};
   const std::string tangent = text_option("-cable_tangent");
@@ -71,16 +85,17 @@ public:
   Simulation(const scene::Scene& scene, std::filesystem::path directory)
       : scene_(scene),
         directory_(std::move(directory)),
-        rule_(force_rule(scene.time)),
+        time_(chosen_time(scene.time)),
+        rule_(force_rule(time_)),
         network_(network::build_network(scene)),
         partition_(partition::make_partition(network_, PETSC_COMM_WORLD)) {
     MPI_Comm_rank(PETSC_COMM_WORLD, &rank_);
     MPI_Comm_size(PETSC_COMM_WORLD, &ranks_);
     assembler_.emplace(partition::make_local_network(network_, partition_, rank_), rule_, PETSC_COMM_WORLD);
-    dynamics_.emplace(*assembler_, scene_.time, scene_.output.interval);
+    dynamics_.emplace(*assembler_, time_, scene_.output.interval);
     if (rank_ == 0)
       fmt::print("{}: {}; {} rank{}, {}, {}\n", scene_.file, describe(scene_, network_), ranks_, ranks_ == 1 ? "" : "s",
-                 scheme_name(scene_.time, rule_), dynamics_->linear_solver());
+                 scheme_name(time_, rule_), dynamics_->linear_solver());
   }
 
   int run() {
@@ -159,7 +174,7 @@ private:
       report_.message = fmt::format("at t = {:.9g} s the solver could not go on near cable {}: {}", report_.reached,
                                     network_.element_name(element), dynamics_->failure());
     }
-    report_.scheme = scheme_name(scene_.time, rule_);
+    report_.scheme = scheme_name(time_, rule_);
     report_.linear_solver = dynamics_->linear_solver();
     report_.counts = dynamics_->counts();
     report_.seconds.emplace_back("solve", solving_);
@@ -179,6 +194,7 @@ private:
   const scene::Scene& scene_;
   std::filesystem::path directory_;
   Stopwatch watch_;
+  scene::Time time_;
   system::ForceRule rule_;
   network::Network network_;
   partition::Partition partition_;

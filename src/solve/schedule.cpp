@@ -8,6 +8,9 @@ namespace {
 
 constexpr double rounding = 1e-9;   // of a step: what accumulated rounding of times may amount to
 
+/// A step that grows at once fails at once again.
+constexpr int steps_before_growth = 4;
+
 }   // namespace
 
 Schedule::Schedule(double start, double end, double step, double interval)
@@ -37,8 +40,12 @@ void Schedule::advance(double taken, bool retried) {
   at_output_ = reached || interval_ <= 0;
   if (reached) ++outputs_;
   const double old_limit = limit_;
+  good_ = retried ? 0 : good_ + 1;
   if (retried) limit_ = std::min(limit_, taken);
-  if (!retried && limit_ < step_) limit_ = std::min(step_, 2 * limit_);
+  if (limit_ < step_ && good_ >= steps_before_growth) {
+    limit_ = std::min(step_, 2 * limit_);
+    good_ = 0;
+  }
   if (reached || !as_planned || limit_ != old_limit) plan();
 }
 

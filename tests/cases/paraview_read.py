@@ -34,11 +34,11 @@ output: {interval: 0}
 """
 
 
-def make_run(program, scratch):
+def make_run(program, scratch, ranks):
     shutil.rmtree(scratch, ignore_errors=True)
     scratch.mkdir(parents=True)
     (scratch / "scene.yaml").write_text(SCENE)
-    subprocess.run(["mpirun", "-n", "2", program, "run", scratch / "scene.yaml", "-o", scratch / "run"],
+    subprocess.run(["mpirun", "-n", str(ranks), program, "run", scratch / "scene.yaml", "-o", scratch / "run"],
                    check=True, env={**MPI, **os.environ})
     return scratch / "run"
 
@@ -129,13 +129,14 @@ def main():
     parser.add_argument("run", nargs="?", type=pathlib.Path, help="the folder that a run wrote")
     parser.add_argument("--program")
     parser.add_argument("--scratch", type=pathlib.Path)
+    parser.add_argument("--ranks", type=int, default=1, help="of the run it makes")
     parser.add_argument("--compare", type=pathlib.Path, help="for the script itself, inside pvbatch")
     given = parser.parse_args()
     if given.compare:
         return compare(given.run, given.compare)
     if not given.run and not (given.program and given.scratch):
         parser.error("give a run, or --program and --scratch")
-    return check(given.run or make_run(given.program, given.scratch))
+    return check(given.run or make_run(given.program, given.scratch, given.ranks))
 
 
 if __name__ == "__main__":

@@ -15,7 +15,8 @@ public:
   /// The next step [s]: the time to the next output, evenly divided into steps no longer than the current limit.
   double next_step() const { return h_; }
   /// A step of `taken` was done (smaller than next_step() after retries).
-  /// @param retried the step failed before: keep the smaller step; else it grows back twofold.
+  /// @param retried the step failed before: keep the smaller step; after four good ones it doubles, until it is back at
+  /// `step`.
   void advance(double taken, bool retried);
   /// The stepper itself chooses steps: its next is cut to the next output.
   void set_limit(double wanted);
@@ -29,6 +30,7 @@ private:
   double start_, end_, step_, interval_;
   double t_;
   double limit_;       ///< current longest step
+  int good_ = 0;       ///< steps since the last retry or growth
   long outputs_ = 0;   ///< passed after the start
   bool at_output_ = true;
   double from_ =

@@ -1,0 +1,140 @@
+"""What the command line promises: exit statuses, files, PETSc options, help."""
+import argparse
+import csv
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
+       "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
+SCENE = """
+environment: {gravity: 9.81}
+cable_types:
+  steel: {area: 1.962e-5, density: 7800, youngs_modulus: 53e9}
+points:
+  pin: {position: [0, 0, 0], motion: fixed}
+  tip: {position: [1.713, 0, 0]}
+cables:
+  cable: {type: steel, from: pin, to: tip, elements: 24}
+time: {end: 0.05, step: 1.0e-3}
+output: {interval: 0.01, history: [pin, tip, cable], energy: true}
+"""
+FILES = {"history.csv", "cables.xmf", "mesh.h5", "frames_0000.h5", "result.h5", "run.yaml"}
+failures = []
+
+
+def expect(truth, text):
+    print(("ok    " if truth else "FAIL  ") + text)
+    if not truth:
+        failures.append(text)
+
+
+class Bench:
+    def __init__(self, program, folder):
+        self.program = program
+        self.folder = folder
+
+    def __call__(self, *arguments, ranks=0):
+        launcher = ["mpirun", "-n", str(ranks), "--oversubscribe"] if ranks else []
+        return subprocess.run([*launcher, self.program, *arguments], cwd=self.folder, capture_output=True, text=True,
+                              timeout=60, env={**MPI, **os.environ}, check=False)
+
+    def rows(self, run):
+        with open(self.folder / run / "history.csv", encoding="utf-8") as table:
+            return list(csv.DictReader(table))
+
+    def report(self, run):
+        return (self.folder / run / "run.yaml").read_text()
+
+
+def runs_and_results(bench):
+    done = bench("run", "scene.yaml")
+    expect(done.returncode == 0, "a run ends with 0")
+    expect({path.name for path in (bench.folder / "scene.out").iterdir()} == FILES, "it writes into SCENE.out what it says")
+    rows = bench.rows("scene.out")
+    expect([float(row["time"]) for row in rows] == [0, 0.01, 0.02, 0.03, 0.04, 0.05], "rows stand at the output times exactly")
+    expect("status: finished" in bench.report("scene.out"), "run.yaml says finished")
+    expect(all(float(row["pin.x"]) == 0 for row in rows) and "pin.fz" in rows[0], "a held point has its reaction")
+
+
+def petsc_options(bench):
+    bench("run", "scene.yaml", "-o", "halved", "-ts_dt", "5e-4")
+    expect("steps: 100" in bench.report("halved"), "-ts_dt overrides the scene's step")
+    bench("run", "-ts_dt", "5e-4", "scene.yaml", "-o", "halved2")
+    expect("steps: 100" in bench.report("halved2"), "options may stand before the scene")
+    (bench.folder / "petsc.options").write_text("-ts_dt 2.5e-4\n")
+    bench("run", "scene.yaml", "-options_file", "petsc.options", "-o", "quartered")
+    expect("steps: 200" in bench.report("quartered"), "-options_file is PETSc's, not -o")
+    done = bench("run", "scene.yaml", "-o", "iterative", "-ksp_type", "gmres", "-pc_type", "ilu")
+    expect(done.returncode == 0 and "gmres + ilu" in bench.report("iterative"), "-ksp_type and -pc_type win")
+    done = bench("run", "scene.yaml", "-o", "stopped", "-ts_max_steps", "7")
+    expect(done.returncode == 0 and "status: stopped" in bench.report("stopped"), "-ts_max_steps stops")
+    expect(abs(float(bench.rows("stopped")[-1]["time"]) - 0.007) < 1e-12, "and saves the state where it stopped")
+    done = bench("run", "scene.yaml", "-o", "monitored", "-ts_monitor", "-snes_monitor")
+    expect("TS dt" in done.stdout and "SNES Function norm" in done.stdout, "-ts_monitor and -snes_monitor print")
+    done = bench("run", "scene.yaml", "-o", "adaptive", "-ts_adapt_type", "basic", "-ts_rtol", "1e-3", "-ts_atol", "1e-3")
+    expect(done.returncode == 0 and float(bench.rows("adaptive")[-1]["time"]) == 0.05, "-ts_adapt_type basic works")
+    done = bench("run", "scene.yaml", "-o", "misspelt", "-snes_mxa_it", "3")
+    expect(done.returncode == 0 and "-snes_mxa_it 3 was not used" in done.stderr, "an option that nothing used is reported")
+    bench("run", "scene.yaml", "-o", "radius", "-ts_alpha_radius", "0.6")
+    expect("generalized_alpha, spectral radius 0.6" in bench.report("radius"), "-ts_alpha_radius takes the scheme that has one")
+    for option, value in (("-ts_type", "bdf"), ("-ts_alpha_radius", "1.5"), ("-cable_tangent", "wrong"), ("-cable_axial_dissipation", "0.7")):
+        done = bench("run", "scene.yaml", "-o", "refused", option, value)
+        expect(done.returncode == 2 and option in done.stderr and not (bench.folder / "refused").exists(),
+               f"{option} {value} is refused")
+
+
+def failures_are_told(bench):
+    for ranks in (0, 2):
+        done = bench("run", "scene.yaml", "-o", "failed", "-snes_max_it", "1", "-ts_max_reject", "0", ranks=ranks)
+        expect(done.returncode == 3, f"a solver that cannot go on ends with 3 ({ranks} ranks)")
+        expect(done.stderr.count("cablenet: error: at t = ") == 1 and "cable, element" in done.stderr,
+               "and says when and where, once")
+        last = bench.rows("failed")[-1]
+        expect(f"at t = {float(last['time']):.9g} s" in done.stderr, "the last row is the last good state")
+        expect("status: failed" in bench.report("failed"), "run.yaml says failed")
+        (bench.folder / "blocked").write_text("a file where a folder is wanted")
+        done = bench("run", "scene.yaml", "-o", "blocked", ranks=ranks)
+        expect(done.returncode == 4 and done.stderr.count("cablenet: error: ") == 1, f"unwritable results end with 4 ({ranks} ranks)")
+    done = bench("run", "absent.yaml", ranks=2)
+    expect(done.returncode == 2 and done.stderr.count("cablenet: error: ") == 1, "wrong input ends with 2 on two ranks, said once")
+
+
+def help_and_check(bench):
+    before = sorted(bench.folder.iterdir())
+    for words in (("--help",), ("run", "--help"), ("check", "--help"), ("--version",), ("run", "-help")):
+        done = bench(*words)
+        expect(done.returncode == 0 and done.stdout, " ".join(words) + " prints")
+    done = bench("check", "scene.yaml")
+    expect(done.returncode == 0 and all(part in done.stdout for part in ("25 nodes", "24 elements", "0 bodies", "72 unknowns")),
+           "check counts")
+    expect(sorted(bench.folder.iterdir()) == before, "and writes nothing")
+
+
+def stale_results(bench):
+    (bench.folder / "mine.txt").write_text("")
+    (bench.folder / "scene.out" / "mine.txt").write_text("kept")
+    bench("run", "scene.yaml", "-ts_max_steps", "2")
+    expect((bench.folder / "scene.out" / "mine.txt").read_text() == "kept", "a second run leaves strangers' files alone")
+    expect(len(bench.rows("scene.out")) == 2, "and replaces its own")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--program", required=True)
+    parser.add_argument("--scratch", type=pathlib.Path, required=True)
+    given = parser.parse_args()
+    shutil.rmtree(given.scratch, ignore_errors=True)
+    given.scratch.mkdir(parents=True)
+    (given.scratch / "scene.yaml").write_text(SCENE)
+    bench = Bench(given.program, given.scratch)
+    for part in (runs_and_results, petsc_options, failures_are_told, help_and_check, stale_results):
+        part(bench)
+    print(f"{len(failures)} failures")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
