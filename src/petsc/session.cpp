@@ -1,5 +1,6 @@
 #include "cablenet/petsc/session.hpp"
 
+#include <fmt/format.h>
 #include <petscsys.h>
 
 #include "cablenet/petsc/handle.hpp"
@@ -33,8 +34,8 @@ std::vector<std::string> unused_options() {
   check(PetscOptionsLeftGet(nullptr, &count, &names, &values));
   std::vector<std::string> unused;
   for (PetscInt i = 0; i < count; ++i) {
-    unused.push_back("-" + std::string(names[i]));
-    if (values[i] != nullptr && *values[i] != '\0') unused.back() += " " + std::string(values[i]);
+    const std::string value = values[i] == nullptr ? "" : values[i];
+    unused.push_back(fmt::format("-{}{}{}", names[i], value.empty() ? "" : " ", value));
   }
   check(PetscOptionsLeftRestore(nullptr, &count, &names, &values));
   return unused;

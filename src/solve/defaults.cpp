@@ -24,8 +24,8 @@ void configure_newton(SNES snes, double force_tolerance) {
   check(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
   // A good first guess makes relative tests unreachable, and Newton's first correction may pass through a much larger
   // residual (a turned stiff element is a stretched one), so the divergence test is off.
-  check(SNESSetTolerances(snes, force_tolerance, 0, 0, 25, -1));
-  check(SNESSetDivergenceTolerance(snes, -1));
+  check(SNESSetTolerances(snes, force_tolerance, 0, 0, 25, petsc::unlimited));
+  check(SNESSetDivergenceTolerance(snes, petsc::unlimited));
 }
 
 std::string describe_linear_solver(KSP ksp) {

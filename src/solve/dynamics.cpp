@@ -50,9 +50,9 @@ void Dynamics::create_stepper() {
   check(TSSetTime(stepper_, time_.start));
   check(TSSetTimeStep(stepper_, time_.step));
   check(TSSetMaxTime(stepper_, time_.end));
-  check(TSSetMaxSteps(stepper_, PETSC_MAX_INT));
+  check(TSSetMaxSteps(stepper_, std::numeric_limits<PetscInt>::max()));
   check(TSSetExactFinalTime(stepper_, TS_EXACTFINALTIME_STEPOVER));
-  check(TSSetMaxSNESFailures(stepper_, -1));
+  check(TSSetMaxSNESFailures(stepper_, petsc::unlimited));
   check(TSSetErrorIfStepFails(stepper_, PETSC_FALSE));
   TSAdapt adapt = nullptr;
   SNES snes = nullptr;

@@ -45,14 +45,14 @@ PetscErrorCode Dynamics::residual(TS ts, PetscReal, Vec x, Vec v, Vec a, Vec r, 
   auto& run = *static_cast<Dynamics*>(self);
   if (run.in_start_phase()) {
     PetscCall(VecWAXPY(r, -start_factor, run.start_acceleration_, a));
-    PetscFunctionReturn(0);
+    PetscFunctionReturn(petsc::success);
   }
   if (!run.assembler_.residual(run.stage(), x, v, a, r)) {
     SNES snes = nullptr;
     PetscCall(TSGetSNES(ts, &snes));
     PetscCall(SNESSetFunctionDomainError(snes));
   }
-  PetscFunctionReturn(0);
+  PetscFunctionReturn(petsc::success);
 }
 
 PetscErrorCode Dynamics::jacobian(TS, PetscReal, Vec, Vec, Vec, PetscReal shift_v, PetscReal shift_a, Mat J, Mat P,
@@ -67,18 +67,18 @@ PetscErrorCode Dynamics::jacobian(TS, PetscReal, Vec, Vec, Vec, PetscReal shift_
     PetscCall(MatAssemblyBegin(J, MAT_FINAL_ASSEMBLY));
     PetscCall(MatAssemblyEnd(J, MAT_FINAL_ASSEMBLY));
   }
-  PetscFunctionReturn(0);
+  PetscFunctionReturn(petsc::success);
 }
 
 /// x + dt v + dt^2/2 a.
 PetscErrorCode Dynamics::predict(SNES, Vec x, void* self) noexcept {
   PetscFunctionBeginUser;
   auto& run = *static_cast<Dynamics*>(self);
-  if (run.in_start_phase()) PetscFunctionReturn(0);
+  if (run.in_start_phase()) PetscFunctionReturn(petsc::success);
   const PetscReal dt = run.stage().dt;
   PetscCall(VecCopy(run.x0_, x));
   PetscCall(VecAXPBYPCZ(x, dt, dt * dt / 2, 1, run.v0_, run.a_));
-  PetscFunctionReturn(0);
+  PetscFunctionReturn(petsc::success);
 }
 
 /// Newton's error falls quadratically, f1 = c f0^2, so c tells how much of a residual that is down to rounding is still
@@ -103,7 +103,7 @@ PetscErrorCode Dynamics::converged(SNES snes, PetscInt iteration, PetscReal xnor
   const bool at_rounding = iteration >= 1 && run.is_at_rounding(fnorm, rounding);
   if (*reason == SNES_CONVERGED_ITERATING && (linear_and_solved || at_rounding)) *reason = SNES_CONVERGED_FNORM_ABS;
   run.previous_norm_ = fnorm;
-  PetscFunctionReturn(0);
+  PetscFunctionReturn(petsc::success);
 }
 
 PetscErrorCode Dynamics::before_stage(TS ts, PetscReal) noexcept {
@@ -111,7 +111,7 @@ PetscErrorCode Dynamics::before_stage(TS ts, PetscReal) noexcept {
   Dynamics* run = nullptr;
   PetscCall(TSGetApplicationContext(ts, &run));
   if (!run->in_start_phase() && run->attempts_++ == 1) run->choose_line_search(true);
-  PetscFunctionReturn(0);
+  PetscFunctionReturn(petsc::success);
 }
 
 }   // namespace cablenet::solve

@@ -61,7 +61,8 @@ class Includes(unittest.TestCase):
             self.expect_complaint("src/elements/cable.cpp", f"#include <{header}>", "physics rooms")
 
     def test_solve_includes_output(self):
-        self.expect_complaint("src/solve/run.cpp", '#include "cablenet/output/series.hpp"', "solve does not know output")
+        line = '#include "cablenet/output/series.hpp"'
+        self.expect_complaint("src/solve/run.cpp", line, "solve does not know output")
 
     def test_empty_tree_fails(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -8,6 +8,14 @@
 /// The one seam to PETSc: error codes become exceptions, objects are owned.
 namespace cablenet::petsc {
 
+/// PETSC_SUCCESS and PETSC_UNLIMITED, which PETSc has from 3.19 and 3.22 on.
+inline constexpr auto success = static_cast<PetscErrorCode>(0);
+#if PETSC_VERSION_LT(3, 22, 0)
+inline constexpr int unlimited = -1;
+#else
+inline constexpr int unlimited = PETSC_UNLIMITED;
+#endif
+
 /// A PETSc call failed: a bug or a resource that ran out; main does not catch it.
 struct Failure : std::runtime_error {
   using std::runtime_error::runtime_error;
