@@ -100,6 +100,29 @@ std::vector<int> all_orders(const std::vector<int>& mine, int vertices, MPI_Comm
   return all;
 }
 
+/// Edges - vertices + connected pieces.
+int count_loops(const Graph& graph) {
+  const int vertices = static_cast<int>(graph.first.size()) - 1;
+  std::vector<bool> seen(at(vertices), false);
+  std::vector<int> front;
+  int pieces = 0;
+  for (int seed = 0; seed < vertices; ++seed) {
+    if (seen[at(seed)]) continue;
+    ++pieces;
+    seen[at(seed)] = true;
+    for (front.assign(1, seed); !front.empty();) {
+      const int v = front.back();
+      front.pop_back();
+      for (int k = graph.first[at(v)]; k < graph.first[at(v) + 1]; ++k) {
+        const int neighbour = graph.adjacent[at(k)];
+        if (!seen[at(neighbour)]) front.push_back(neighbour);
+        seen[at(neighbour)] = true;
+      }
+    }
+  }
+  return static_cast<int>(graph.adjacent.size() / 2) - vertices + pieces;
+}
+
 void assign_elements(const network::Network& network, Partition& partition) {
   const auto free_owner = [&](int node) {
     return partition.solver_number[at(node)] >= 0 ? partition.node_owner[at(node)] : -1;
@@ -169,6 +192,7 @@ Partition make_partition(const network::Network& network, MPI_Comm communicator)
   for (int& k : order) k = mine[at(k)];
 
   Partition partition;
+  partition.loops = count_loops(graph);
   partition.node_owner.assign(nodes, 0);
   partition.solver_number.assign(nodes, -1);
   partition.first_number.assign(at(ranks) + 1, 0);

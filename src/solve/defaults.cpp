@@ -6,15 +6,38 @@ namespace cablenet::solve {
 
 using petsc::check;
 
-void configure_linear_solver(KSP ksp) {
+namespace {
+
+/// Up to here a network counts as nearly a tree.
+constexpr int few_loops = 10;
+
+void use_natural_lu(PC pc) {
+  check(PCSetType(pc, PCLU));
+  check(PCFactorSetMatSolverType(pc, MATSOLVERPETSC));
+  check(PCFactorSetMatOrderingType(pc, MATORDERINGNATURAL));
+}
+
+}   // namespace
+
+void configure_linear_solver(KSP ksp, int loops) {
   PetscMPIInt ranks = 1;
   MPI_Comm_size(PetscObjectComm(reinterpret_cast<PetscObject>(ksp)), &ranks);
   PC pc = nullptr;
   check(KSPSetType(ksp, KSPPREONLY));
   check(KSPGetPC(ksp, &pc));
-  check(PCSetType(pc, PCLU));
-  check(PCFactorSetMatSolverType(pc, ranks == 1 ? MATSOLVERPETSC : MATSOLVERMUMPS));
-  if (ranks == 1) check(PCFactorSetMatOrderingType(pc, MATORDERINGNATURAL));
+  if (ranks == 1) {
+    use_natural_lu(pc);
+  } else if (loops <= few_loops) {
+    KSP inner = nullptr;
+    PC inner_pc = nullptr;
+    check(PCSetType(pc, PCREDUNDANT));
+    check(PCRedundantGetKSP(pc, &inner));
+    check(KSPGetPC(inner, &inner_pc));
+    use_natural_lu(inner_pc);
+  } else {
+    check(PCSetType(pc, PCLU));
+    check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  }
   check(KSPSetFromOptions(ksp));
 }
 
@@ -39,6 +62,7 @@ std::string describe_linear_solver(KSP ksp) {
   std::string text = std::string(ksp_type) + " + " + pc_type;
   const std::string kind = pc_type;
   if (kind == PCLU || kind == PCCHOLESKY) check(PCFactorGetMatSolverType(pc, &package));
+  if (kind == PCREDUNDANT) text += " (the whole network on every rank)";
   if (package != nullptr) text += " (" + std::string(package) + ")";
   return text;
 }

@@ -7,6 +7,7 @@ import subprocess
 import sys
 
 SKIPPED = 77
+STYLED_BY = 14
 
 
 def main():
@@ -16,6 +17,10 @@ def main():
     program = shutil.which("clang-format")
     if not program:
         print("skipped: clang-format is not installed")
+        return SKIPPED
+    version = re.search(r"version (\d+)", subprocess.run([program, "--version"], capture_output=True, text=True).stdout)
+    if not version or int(version[1]) != STYLED_BY:
+        print(f"skipped: the sources are laid out by clang-format {STYLED_BY}; other versions differ in details")
         return SKIPPED
     files = sorted(str(path) for top in ("include", "src", "tests") for suffix in ("hpp", "cpp")
                    for path in (root / top).rglob(f"*.{suffix}"))

@@ -14,6 +14,7 @@ struct Partition {
   std::vector<int> element_owner;   ///< per element: the owner of one of its free nodes
   std::vector<int> solver_number;   ///< per node: contiguous on each rank, leaf to root within it; -1 if prescribed
   std::vector<int> first_number;    ///< per rank, and one past the last
+  int loops = 0;                    ///< independent loops of the free nodes' graph: 0 for trees
 };
 
 /// METIS cuts the graph of free nodes on rank 0; each rank orders its own part.

@@ -7,9 +7,11 @@
 /// PETSc solver defaults in one place; whatever the user's options say wins.
 namespace cablenet::solve {
 
-/// KSP preonly with LU: PETSc's own in natural (leaf-to-root) order on one rank, MUMPS on more.
-/// Reads the options database.  Collective.
-void configure_linear_solver(KSP ksp);
+/// KSP preonly with LU in natural (leaf-to-root) order on one rank.  On more ranks: for trees and near-trees the same
+/// LU of the whole network on every rank (exact, and many times cheaper than a distributed factorisation while fill is
+/// nil); for nets MUMPS. Reads the options database.  Collective.
+/// @param loops  independent loops in the network
+void configure_linear_solver(KSP ksp, int loops);
 
 /// Newton with a basic line search, an absolute tolerance alone.
 /// @param force_tolerance [N]
