@@ -28,6 +28,7 @@ public:
     number_nodes();
     place_points();
     for (std::size_t i = 0; i < scene_.nets.size(); ++i) lay_net(i);
+    for (std::size_t i = 0; i < scene_.cables.size(); ++i) set_end_velocities(i);
     for (std::size_t i = 0; i < scene_.cables.size(); ++i) lay_cable(i);
     for (std::size_t i = 0; i < scene_.cables.size(); ++i) add_cable_elements(i);
     for (std::size_t i = 0; i < scene_.nets.size(); ++i) add_net_elements(i);
@@ -41,6 +42,7 @@ private:
   void lay_net(std::size_t index);
   void lay_cable(std::size_t index);
   void place_cable(std::size_t index, const Vector3& a, const Vector3& b);
+  void set_end_velocities(std::size_t index);
   void set_velocities(std::size_t index);
   void set_end_velocity(std::size_t index, const scene::CableEnd& end, const Vector3& velocity);
   void add_cable_elements(std::size_t index);
@@ -197,13 +199,17 @@ void Builder::place_cable(std::size_t index, const Vector3& a, const Vector3& b)
   for (int k = 1; k < cable.elements; ++k) network_.position[at(first_inner_node_[index] + k - 1)] = points[at(k)];
 }
 
+/// Before any cable is laid, for a neighbour's nodes may be drawn with its ends' velocities.
+void Builder::set_end_velocities(std::size_t index) {
+  const scene::Cable& cable = scene_.cables[index];
+  if (cable.node_velocity.empty()) return;
+  set_end_velocity(index, cable.from, cable.node_velocity.front());
+  set_end_velocity(index, cable.to, cable.node_velocity.back());
+}
+
 void Builder::set_velocities(std::size_t index) {
   const scene::Cable& cable = scene_.cables[index];
   const std::vector<double>& arcs = arcs_[index];
-  if (!cable.node_velocity.empty()) {
-    set_end_velocity(index, cable.from, cable.node_velocity.front());
-    set_end_velocity(index, cable.to, cable.node_velocity.back());
-  }
   const Vector3 v0 = network_.velocity[at(end_node(cable.from))];
   const Vector3 v1 = network_.velocity[at(end_node(cable.to))];
   for (int k = 1; k < cable.elements; ++k)

@@ -64,12 +64,15 @@ double catenary_parameter(double ratio) {
   return u;
 }
 
-/// Ends (nearly) above one another: down, round and up, spread a little so that no two nodes coincide.
+/// Ends (nearly) above one another: down and up again, the one leg bent towards x and the other towards y, so that no
+/// two nodes coincide.
 Vector3 hairpin_point(const Vector3& a, const Vector3& b, double L, double s) {
   const double down = 0.5 * (L - (b.z() - a.z()));
+  const bool first_leg = s < down;
   Vector3 p = a + (b - a) * (s / L);
-  p.z() = a.z() - (s < down ? s : 2 * down - s);
-  p.x() += 1e-3 * L * std::sin(std::numbers::pi * s / L);
+  p.z() = a.z() - (first_leg ? s : 2 * down - s);
+  const double along = first_leg ? s / down : (s - down) / (L - down);
+  p[first_leg ? 0 : 1] += 1e-3 * L * std::sin(std::numbers::pi * along);
   return p;
 }
 
@@ -106,7 +109,7 @@ std::vector<Vector3> straight_shape(const Vector3& a, const Vector3& b, const st
 std::vector<Vector3> catenary_shape(const Vector3& a, const Vector3& b, const std::vector<double>& arcs) {
   const double L = arcs.back();
   const Vector3 span = b - a;
-  if (L <= span.norm() * (1 + 1e-12)) return straight_shape(a, b, arcs);
+  if (L <= span.norm() * (1 + 1e-11)) return straight_shape(a, b, arcs);
   const double h = std::hypot(span.x(), span.y());
   std::vector<Vector3> points;
   points.reserve(arcs.size());

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <limits>
+
 #include "alpha_parameters.hpp"
 #include "cablenet/solve/dynamics.hpp"
 
@@ -40,7 +43,7 @@ void Dynamics::choose_line_search(bool retry) {
   check(SNESLineSearchSetType(search, retry ? SNESLINESEARCHBT : SNESLINESEARCHBASIC));
 }
 
-PetscErrorCode Dynamics::residual(TS ts, PetscReal, Vec x, Vec v, Vec a, Vec r, void* self) noexcept {
+PetscErrorCode Dynamics::residual(TS, PetscReal, Vec x, Vec v, Vec a, Vec r, void* self) noexcept {
   PetscFunctionBeginUser;
   auto& run = *static_cast<Dynamics*>(self);
   if (run.in_start_phase()) {
@@ -48,9 +51,14 @@ PetscErrorCode Dynamics::residual(TS ts, PetscReal, Vec x, Vec v, Vec a, Vec r, 
     PetscFunctionReturn(petsc::success);
   }
   if (!run.assembler_.residual(run.stage(), x, v, a, r)) {
-    SNES snes = nullptr;
-    PetscCall(TSGetSNES(ts, &snes));
-    PetscCall(SNESSetFunctionDomainError(snes));
+    // PETSc's own flag for this stays on one rank, and its line searches then leave the others waiting; a norm does
+    // not.
+    PetscInt count = 0;
+    PetscScalar* values = nullptr;
+    PetscCall(VecGetLocalSize(r, &count));
+    PetscCall(VecGetArrayWrite(r, &values));
+    std::fill_n(values, count, std::numeric_limits<double>::infinity());
+    PetscCall(VecRestoreArrayWrite(r, &values));
   }
   PetscFunctionReturn(petsc::success);
 }

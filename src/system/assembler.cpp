@@ -107,9 +107,10 @@ void Assembler::set_prescribed(const Stage& s) {
     const auto& [x1, v1, a1] = step.end;
     LocalState::at(state_.x, node) = x0 + s.alpha_f * (x1 - x0);
     LocalState::at(state_.v, node) = v0 + s.alpha_f * (v1 - v0);
-    // With the mid-point rule the free nodes' a_a is (v1 - v0)/dt; taken alike here, energy balances exactly.
+    // The free nodes' a_a stands for the stage's time t + alpha_f dt.  With the mid-point rule it is (v1 - v0)/dt:
+    // taken alike here, the energy of fixed and uniformly moved points balances exactly.
     LocalState::at(state_.a, node) =
-        midpoint && s.dt > 0 ? Vector3((v1 - v0) / s.dt) : Vector3(a0 + s.alpha_m * (a1 - a0));
+        midpoint && s.dt > 0 ? Vector3((v1 - v0) / s.dt) : Vector3(a0 + s.alpha_f * (a1 - a0));
   }
 }
 
