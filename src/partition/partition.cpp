@@ -127,10 +127,14 @@ void assign_elements(const network::Network& network, Partition& partition) {
   const auto free_owner = [&](int node) {
     return partition.solver_number[at(node)] >= 0 ? partition.node_owner[at(node)] : -1;
   };
+  // An element without free nodes goes to a rank that has rows, so that every rank with elements has a voice in norms.
+  const auto first_rank = std::upper_bound(partition.first_number.begin(), partition.first_number.end(), 0);
+  const int otherwise = static_cast<int>(first_rank - partition.first_number.begin()) - 1;
   partition.element_owner.reserve(network.elements.size());
   for (const auto& element : network.elements) {
     const int first = free_owner(element.node[0]);
-    partition.element_owner.push_back(std::max(0, first >= 0 ? first : free_owner(element.node[1])));
+    const int owner = first >= 0 ? first : free_owner(element.node[1]);
+    partition.element_owner.push_back(owner >= 0 ? owner : otherwise);
   }
   std::vector<bool> taken(network.position.size(), false);
   for (std::size_t i = 0; i < network.elements.size(); ++i)

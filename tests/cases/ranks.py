@@ -1,0 +1,152 @@
+"""Runs scenes on 1, 2, 3, 4 and 7 ranks and checks that their histories agree."""
+import argparse
+import csv
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import time
+
+MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
+       "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
+TOLERANCE = 1e-9      # of a quantity's scale: its largest value in the run
+LIMIT = 120           # s for one run
+OPTIONS = ["-snes_atol", "1e-11"]      # N: what Newton's own tolerance leaves differs from rank to rank by more
+
+TYPES = """
+cable_types:
+  rope: {mass_per_length: 0.5, axial_stiffness: 2.0e4}
+  thin: {mass_per_length: 0.2, axial_stiffness: 8.0e3, tension_only: true, axial_damping: 5}
+"""
+
+# Nothing lies in a plane: each quantity then has a scale of its own.
+SCENES = {
+    "chain": ((2, 3, 4, 7), TYPES + """
+points:
+  top: {position: [0, 0, 0], motion: fixed}
+  tip: {position: [5, 2, -1], mass: 1, velocity: [0, 1, 2], force: [1, -2, 0]}
+cables: {chain: {type: rope, from: top, to: tip, elements: 24, length: 5.6, shape: catenary}}
+time: {end: 0.4, step: 1.0e-2, scheme: energy_momentum}
+output: {interval: 2.0e-2, history: [tip, top, chain], energy: true}
+"""),
+    "array": ((2, 3, 4, 7), TYPES + """
+points:
+  tow: {position: [0, 0, 0], motion: {expression: {x: "3*t + 0.1*sin(9*t)", y: "0.3*cos(5*t)", z: "0.2*sin(7*t)"}}}
+  tail: {position: [-12, 1, -2], mass: 0.5, velocity: [3, 0, 0]}
+  tip: {position: [-3, 0.5, -3], mass: 1, velocity: [3, 0, 0.5]}
+cables:
+  trunk: {type: rope, from: tow, to: tail, elements: 30}
+  branch:
+    type: thin
+    from: {cable: trunk, at: 2.9}
+    to: tip
+    elements: 5
+    repeat: {count: 4, every: 2.7, offset: [-2.7, 0.2, -0.4]}
+time: {end: 0.24, step: 1.0e-2, spectral_radius: 0.7}
+output: {interval: 4.0e-2, history: [tip, tow, tail, trunk, branch], energy: true}
+"""),
+    "two_cables": ((2, 3, 4, 7), TYPES + """
+points:
+  a: {position: [0, 0, 0], motion: {harmonic: {amplitude: [0.1, 0.2, 0.3], period: 0.5, phase: 40}}}
+  b: {position: [3, 1, -4], mass: 0.4}
+  c: {position: [9, 9, 0], velocity: [1, 2, 3], mass: 0.1, force: [0, 3, 0]}
+  d: {position: [14, 11, 1], velocity: [0, -1, 0.5]}
+cables:
+  one: {type: rope, from: a, to: b, elements: 20}
+  other: {type: rope, from: c, to: d, elements: 16, length: 5.4}
+time: {end: 0.5, step: 1.0e-2}
+output: {interval: 0, history: [a, b, c, d, one, other], energy: true}
+"""),
+    "net": ((2, 3, 4, 7), TYPES + """
+points:
+  end: {position: [2, 1, -6], mass: 2, velocity: [0.3, 1, 0]}
+cables: {hanger: {type: rope, from: {net: panel, node: [2, 3]}, to: end, elements: 6}}
+nets:
+  panel: {type: thin, corners: [[0, 0, 0], [4, 0.5, 0.2], [4, 1, -3], [0, 0.7, -3]], meshes: [4, 3], slack: 1.02, fixed: [top]}
+time: {end: 0.4, step: 1.0e-2, spectral_radius: 0.8}
+output: {interval: 2.0e-2, history: [end, hanger], energy: true}
+"""),
+    "more_ranks_than_nodes": ((2, 7), TYPES + """
+points: {a: {position: [0, 0, 0], motion: fixed}, b: {position: [2, 1, 1], motion: {velocity: [0.1, 0.2, 0.3]}}}
+cables: {short: {type: rope, from: a, to: b, elements: 3}}
+time: {end: 0.4, step: 1.0e-2}
+output: {interval: 2.0e-2, history: [a, b, short], energy: true}
+"""),
+}
+
+
+class Difference(Exception):
+    pass
+
+
+def run(program, scene, folder, ranks):
+    """@return the history's columns and rows"""
+    command = ["mpirun", "-n", str(ranks), "--oversubscribe"] if ranks > 1 else []
+    done = subprocess.run([*command, program, "run", scene, "-o", folder, *OPTIONS], env={**MPI, **os.environ}, text=True,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=LIMIT)
+    if done.returncode != 0:
+        raise Difference(f"status {done.returncode}: {done.stdout}")
+    with open(folder / "history.csv", newline="") as file:
+        columns, *rows = csv.reader(file)
+    return columns, [[float(cell) for cell in row] for row in rows]
+
+
+def scales(columns, rows):
+    """Per column its largest value; the energies, whose sum balances, share one."""
+    largest = [max(abs(row[i]) for row in rows) for i in range(len(columns))]
+    energy = max((value for name, value in zip(columns, largest) if name.startswith("energy.")), default=0)
+    return [energy if name.startswith("energy.") else value for name, value in zip(columns, largest)]
+
+
+def compare(reference, other):
+    """@return the largest difference over its quantity's scale, and where it is"""
+    columns, rows = reference
+    if other[0] != columns:
+        raise Difference("other columns")
+    if len(other[1]) != len(rows):
+        raise Difference(f"{len(other[1])} rows instead of {len(rows)}")
+    worst = (0, "nowhere")
+    for mine, theirs in zip(rows, other[1]):
+        for name, scale, a, b in zip(columns, scales(columns, rows), mine, theirs):
+            difference = abs(a - b) / scale if scale > 0 else abs(b)
+            if not difference <= worst[0]:
+                worst = (difference, f"{name} at t = {mine[0]}")
+    return worst
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--program", required=True)
+    parser.add_argument("--scratch", type=pathlib.Path, required=True)
+    given = parser.parse_args()
+    shutil.rmtree(given.scratch, ignore_errors=True)
+    failures = 0
+    for name, (numbers, text) in SCENES.items():
+        folder = given.scratch / name
+        folder.mkdir(parents=True)
+        scene = folder / "scene.yaml"
+        scene.write_text(text)
+        reference = None
+        for ranks in (1, *numbers):
+            start = time.monotonic()
+            try:
+                found = run(given.program, scene, folder / f"ranks_{ranks}", ranks)
+                reference = reference or found
+                worst, where = compare(reference, found)
+                verdict = "" if worst <= TOLERANCE else f": more than {TOLERANCE}"
+                text = f"{len(found[1])} rows, differs by {worst:.1e} ({where}){verdict}"
+            except (Difference, subprocess.TimeoutExpired) as problem:
+                verdict = text = str(problem)
+            failures += bool(verdict)
+            print(f"{name}, {ranks} ranks: {text}, {time.monotonic() - start:.1f} s", flush=True)
+            if reference is None:
+                break
+    if failures:
+        return 1
+    shutil.rmtree(given.scratch)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,186 @@
+#include "cablenet/system/assembler.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../support/networks.hpp"
+
+using namespace cablenet;
+using namespace cablenet::test;
+using scene::Scheme;
+
+namespace {
+
+const std::string branched = R"(
+environment: {gravity: 9.81}
+points:
+  tow: {position: [0, 0, 0], motion: {harmonic: {amplitude: [0.1, 0.2, 0.3], period: 0.8, phase: 20}}, mass: 5}
+  tail: {position: [8, 1, -2], mass: 0.6, force: [0.5, -1, 2]}
+  tip: {position: [3, -2, -3], mass: 1.2}
+  side: {position: [4, 3, -2], motion: fixed}
+cables:
+  trunk: {type: rope, from: tow, to: tail, elements: 8, length: 8.2}
+  branch: {type: damped, from: {cable: trunk, at: 3.1}, to: tip, elements: 4}
+  stay: {type: slack, from: {cable: branch, at: 1.5}, to: side, elements: 3, length: 5.5}
+)";
+
+struct Case {
+  const char* name;
+  Scheme scheme;
+  double xi;
+  double radius;
+  friend void PrintTo(const Case& item, std::ostream* out) { *out << item.name; }
+};
+
+/// A state within a step, and the shifts by which v and a follow x, as TSALPHA2 has them.
+struct State {
+  State(const network::Network& network, double radius) {
+    stage = {0.3, 0.02, 1 / (1 + radius), (2 - radius) / (1 + radius)};
+    const double gamma = 0.5 + stage.alpha_m - stage.alpha_f;
+    const double beta = 0.25 * (1 + stage.alpha_m - stage.alpha_f) * (1 + stage.alpha_m - stage.alpha_f);
+    shift_v = gamma / (beta * stage.dt);
+    shift_a = stage.alpha_m / (stage.alpha_f * beta * stage.dt * stage.dt);
+    const Field zero(network.position.size(), Vector3::Zero());
+    x0 = disturbed(network.position, 0.3, 1);
+    v0 = disturbed(zero, 2, 1000);
+    x = disturbed(x0, 0.1, 2000);
+    v = disturbed(v0, 1, 3000);
+    a = disturbed(zero, 10, 4000);
+    direction = disturbed(zero, 1, 5000);
+    for (const auto& held : network.prescribed) direction[at(held.node)].setZero();
+  }
+  system::Stage stage;
+  double shift_v, shift_a;
+  Field x0, v0, x, v, a, direction;
+};
+
+Field moved(const Field& field, double step, const Field& direction) {
+  Field result = field;
+  for (std::size_t i = 0; i < field.size(); ++i) result[i] += step * direction[i];
+  return result;
+}
+
+Field residual(System& system, const State& s, double step) {
+  const system::Vector r = system.assembler.make_vector();
+  EXPECT_TRUE(system.assembler.residual(s.stage, system.vector(moved(s.x, step, s.direction)),
+                                        system.vector(moved(s.v, step * s.shift_v, s.direction)),
+                                        system.vector(moved(s.a, step * s.shift_a, s.direction)), r));
+  return system.field(r);
+}
+
+/// Jacobian times s.direction at the state of the last residual.
+Field tangent(System& system, const State& s) {
+  const system::Matrix matrix = system.assembler.make_matrix();
+  const system::Vector product = system.assembler.make_vector();
+  system.assembler.jacobian(s.stage, s.shift_v, s.shift_a, matrix);
+  petsc::check(MatMult(matrix, system.vector(s.direction), product));
+  return system.field(product);
+}
+
+class Assembler : public testing::TestWithParam<Case> {
+protected:
+  network::Network network_ = network_of(branched);
+  system::ForceRule rule_{GetParam().scheme, GetParam().xi, elements::Tangent::exact};
+  State state_{network_, GetParam().radius};
+  System everywhere_{network_, rule_, PETSC_COMM_WORLD};
+  System alone_{network_, rule_, PETSC_COMM_SELF};
+
+  void begin(System& system) const {
+    system.assembler.begin_step(state_.stage.t, system.vector(state_.x0), system.vector(state_.v0));
+  }
+};
+
+}   // namespace
+
+TEST_P(Assembler, TheJacobianIsTheResidualsDerivative) {
+  begin(everywhere_);
+  residual(everywhere_, state_, 0);
+  const Field exact = tangent(everywhere_, state_);
+  const double h = 1e-5;
+  const Field ahead = residual(everywhere_, state_, h);
+  const Field behind = residual(everywhere_, state_, -h);
+  Field central = difference(ahead, behind);
+  for (Vector3& value : central) value /= 2 * h;
+  EXPECT_GT(size(exact), 1);
+  EXPECT_LE(size(difference(central, exact)), 1e-6 * size(exact));
+}
+
+/// Without inertia, which is linear and large, nothing hides the internal force's tangent.
+TEST_P(Assembler, TheJacobianOfTheInternalForceAlone) {
+  state_.shift_a = 0;
+  begin(everywhere_);
+  residual(everywhere_, state_, 0);
+  const Field exact = tangent(everywhere_, state_);
+  const double h = 1e-6;
+  Field central = difference(residual(everywhere_, state_, h), residual(everywhere_, state_, -h));
+  for (Vector3& value : central) value /= 2 * h;
+  EXPECT_LE(size(difference(central, exact)), 1e-6 * size(exact));
+}
+
+TEST_P(Assembler, AllNumbersOfRanksAgree) {
+  begin(everywhere_);
+  begin(alone_);
+  const Field r = residual(everywhere_, state_, 0);
+  const Field r_alone = residual(alone_, state_, 0);
+  const Field product = tangent(everywhere_, state_);
+  const Field product_alone = tangent(alone_, state_);
+  EXPECT_LE(size(difference(r, r_alone)), 1e-12 * size(r_alone));
+  EXPECT_LE(size(difference(product, product_alone)), 1e-12 * size(product_alone));
+}
+
+/// An element's nodes meet at the step's end, or at the stage where the scheme takes its force there.
+TEST_P(Assembler, CoincidentNodesAreNamed) {
+  const int element = 5;
+  const State usual = state_;
+  const std::size_t from = at(network_.elements[at(element)].node[0]), to = at(network_.elements[at(element)].node[1]);
+  const double left = GetParam().scheme == Scheme::plain ? 0 : 1 - state_.stage.alpha_f;
+  state_.x0[from] = state_.x[from] = Vector3::Zero();
+  state_.x0[to] = Vector3(1, 0, 0);
+  state_.x[to] = Vector3(left, 0, 0);
+  begin(everywhere_);
+  const system::Vector r = everywhere_.assembler.make_vector();
+  const system::Vector v = everywhere_.vector(state_.v), a = everywhere_.vector(state_.a);
+  const bool fine = everywhere_.assembler.residual(state_.stage, everywhere_.vector(state_.x), v, a, r);
+  const bool mine = everywhere_.partition.element_owner[at(element)] == rank_of(PETSC_COMM_WORLD);
+  EXPECT_EQ(fine, !mine);
+  EXPECT_EQ(everywhere_.assembler.coincident_element(), mine ? element : -1);
+  EXPECT_TRUE(everywhere_.assembler.residual(state_.stage, everywhere_.vector(usual.x), v, a, r));
+  EXPECT_EQ(everywhere_.assembler.coincident_element(), -1);
+}
+
+/// The residual's own definition, from the elements' functions, where the force is PETSc's.
+TEST(AssemblerPlain, TheResidualIsTheElementsSum) {
+  const network::Network network = network_of(branched);
+  System system(network, {Scheme::plain, 0, elements::Tangent::exact}, PETSC_COMM_WORLD);
+  const State s(network, 0.8);
+  system.assembler.begin_step(s.stage.t, system.vector(s.x0), system.vector(s.v0));
+  Field found = residual(system, s, 0), x = s.x, v = s.v, a = s.a;
+  for (const auto& [node, motion] : network.prescribed) {
+    const auto from = motion.at(s.stage.t), to = motion.at(s.stage.t + s.stage.dt);
+    x[at(node)] = from.x + s.stage.alpha_f * (to.x - from.x);
+    v[at(node)] = from.v + s.stage.alpha_f * (to.v - from.v);
+    // The free nodes' accelerations lag so that theirs, too, is that of the time of the forces.
+    a[at(node)] = from.a + s.stage.alpha_f * (to.a - from.a);
+  }
+  Field expected(network.position.size(), Vector3::Zero());
+  for (const auto& e : network.elements) {
+    const auto& material = network.materials[at(e.material)];
+    const std::size_t i = at(e.node[0]), j = at(e.node[1]);
+    const double beta = material.mass_damping;
+    const auto ends = elements::cable_end_forces(material, e.length, network.gravity, {x[j] - x[i], v[j] - v[i]},
+                                                 {a[i] + beta * v[i], a[j] + beta * v[j]});
+    expected[i] += ends.on1;
+    expected[j] += ends.on2;
+  }
+  for (const auto& load : network.loads)
+    expected[at(load.node)] += load.mass * (a[at(load.node)] + Vector3(0, 0, network.gravity)) - load.force;
+  for (const auto& held : network.prescribed) expected[at(held.node)].setZero();
+  EXPECT_LE(size(difference(found, expected)), 1e-12 * size(expected));
+}
+
+INSTANTIATE_TEST_SUITE_P(Schemes, Assembler,
+                         testing::Values(Case{"energy_momentum", Scheme::energy_momentum, 0, 1},
+                                         Case{"energy_momentum_dissipating", Scheme::energy_momentum, 0.1, 1},
+                                         Case{"generalized_alpha", Scheme::generalized_alpha, 0, 0.8},
+                                         Case{"generalized_alpha_0", Scheme::generalized_alpha, 0, 0},
+                                         Case{"plain", Scheme::plain, 0, 0.8}, Case{"plain_1", Scheme::plain, 0, 1}),
+                         [](const auto& item) { return item.param.name; });

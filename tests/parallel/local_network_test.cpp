@@ -1,0 +1,89 @@
+#include "cablenet/partition/local_network.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "../support/networks.hpp"
+#include "../support/scenes.hpp"
+
+using namespace cablenet;
+using namespace cablenet::test;
+
+namespace {
+
+class LocalNetwork : public testing::TestWithParam<NamedScene> {
+protected:
+  network::Network network_ = network_of(GetParam().text);
+  partition::Partition partition_ = partition::make_partition(network_, PETSC_COMM_WORLD);
+  std::vector<bool> held_ = held_nodes(network_);
+  partition::LocalNetwork here_ = partition::make_local_network(network_, partition_, rank_of(PETSC_COMM_WORLD));
+
+  /// How often each scene index turns up on all ranks together.
+  std::vector<int> counts(const std::vector<int>& found, std::size_t size) const {
+    std::vector<int> count(size, 0);
+    for (const int index : found) ++count[at(index)];
+    MPI_Allreduce(MPI_IN_PLACE, count.data(), static_cast<int>(size), MPI_INT, MPI_SUM, PETSC_COMM_WORLD);
+    return count;
+  }
+};
+
+}   // namespace
+
+TEST_P(LocalNetwork, NumbersNodesByTheirKind) {
+  const int rank = rank_of(PETSC_COMM_WORLD);
+  EXPECT_EQ(here_.first_number, partition_.first_number[at(rank)]);
+  EXPECT_EQ(here_.free_nodes, partition_.first_number.back());
+  EXPECT_EQ(here_.owned, partition_.first_number[at(rank) + 1] - here_.first_number);
+  EXPECT_EQ(here_.nodes, here_.owned + here_.ghosts + static_cast<int>(here_.prescribed.size()));
+  EXPECT_EQ(here_.ghost_number.size(), at(here_.ghosts));
+  for (const std::size_t size :
+       {here_.scene_node.size(), here_.primary.size(), here_.position.size(), here_.velocity.size()})
+    EXPECT_EQ(size, at(here_.nodes));
+  EXPECT_EQ(std::set<int>(here_.scene_node.begin(), here_.scene_node.end()).size(), at(here_.nodes));
+  for (int i = 0; i < here_.nodes; ++i) {
+    const std::size_t node = at(here_.scene_node[at(i)]);
+    EXPECT_EQ(here_.is_free(i), !held_[node]);
+    EXPECT_EQ(here_.position[at(i)], network_.position[node]);
+    EXPECT_EQ(here_.velocity[at(i)], network_.velocity[node]);
+    if (!here_.is_free(i)) continue;
+    EXPECT_EQ(here_.number(i), partition_.solver_number[node]);
+    EXPECT_EQ(i < here_.owned, partition_.node_owner[node] == rank);
+  }
+}
+
+TEST_P(LocalNetwork, HasItsElementsWithTheirNodes) {
+  EXPECT_EQ(counts(here_.scene_element, network_.elements.size()), std::vector<int>(network_.elements.size(), 1));
+  ASSERT_EQ(here_.scene_element.size(), here_.elements.size());
+  for (std::size_t i = 0; i < here_.elements.size(); ++i) {
+    const partition::LocalElement& element = here_.elements[i];
+    const network::Element& whole = network_.elements[at(here_.scene_element[i])];
+    EXPECT_EQ(partition_.element_owner[at(here_.scene_element[i])], rank_of(PETSC_COMM_WORLD));
+    EXPECT_EQ(element.material, whole.material);
+    EXPECT_EQ(element.length, whole.length);
+    for (std::size_t side = 0; side < 2; ++side) EXPECT_EQ(here_.scene_node[at(element.node[side])], whole.node[side]);
+  }
+}
+
+TEST_P(LocalNetwork, NodesLoadsAndHeldNodesAreSpokenForOnce) {
+  std::vector<int> primary, loads, prescribed, expected_loads(network_.position.size(), 0);
+  for (int i = 0; i < here_.nodes; ++i)
+    if (here_.primary[at(i)]) primary.push_back(here_.scene_node[at(i)]);
+  for (const auto& load : here_.loads) {
+    EXPECT_TRUE(here_.primary[at(load.node)]);
+    loads.push_back(here_.scene_node[at(load.node)]);
+  }
+  for (const auto& load : network_.loads) ++expected_loads[at(load.node)];
+  for (const auto& held : here_.prescribed) {
+    EXPECT_GE(held.node, here_.owned + here_.ghosts);
+    const Vector3 place = held.motion.at(0).x;
+    EXPECT_EQ(place, network_.position[at(here_.scene_node[at(held.node)])]);
+    if (here_.primary[at(held.node)]) prescribed.push_back(here_.scene_node[at(held.node)]);
+  }
+  EXPECT_EQ(counts(primary, network_.position.size()), std::vector<int>(network_.position.size(), 1));
+  EXPECT_EQ(counts(loads, network_.position.size()), expected_loads);
+  EXPECT_EQ(counts(prescribed, network_.position.size()), std::vector<int>(held_.begin(), held_.end()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, LocalNetwork, testing::ValuesIn(kinds_of_networks),
+                         [](const auto& scene) { return scene.param.name; });

@@ -1,0 +1,139 @@
+"""What the verification scripts share: scenes, runs, references, checks."""
+import argparse
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import time
+
+import numpy as np
+
+REFERENCE = pathlib.Path(__file__).resolve().parent / "reference"
+HELD = {"position": [0, 0, 0], "motion": "fixed"}
+
+
+class Run:
+    """A finished run: `run["P.x"]` is a column of history.csv as an array, `run.report` run.yaml as text."""
+
+    def __init__(self, folder, seconds):
+        self.folder, self.seconds = folder, seconds
+        lines = (folder / "history.csv").read_text().splitlines()
+        values = np.array([[float(word) for word in line.split(",")] for line in lines[1:]])
+        self.columns = dict(zip(lines[0].split(","), values.T))
+        self.report = (folder / "run.yaml").read_text()
+
+    def __getitem__(self, column):
+        return self.columns[column]
+
+    def vectors(self, name, kind=""):
+        """(rows, 3): position; kind "v" velocity, "a" acceleration, "f" reaction."""
+        return np.column_stack([self[f"{name}.{kind}{axis}"] for axis in "xyz"])
+
+    def counted(self, key):
+        return int(re.search(rf"^{key}: (\d+)$", self.report, re.MULTILINE)[1])
+
+
+class Verification:
+    """Runs the program in the scratch folder and collects what fails."""
+
+    def __init__(self, description):
+        parser = argparse.ArgumentParser(description=description)
+        parser.add_argument("--program", required=True)
+        parser.add_argument("--scratch", required=True, type=pathlib.Path)
+        options = parser.parse_args()
+        self.program, self.scratch = options.program, options.scratch.resolve()
+        shutil.rmtree(self.scratch, ignore_errors=True)
+        self.scratch.mkdir(parents=True)
+        self.checked, self.failed, self.started, self.runs = 0, [], time.monotonic(), 0
+        self.rejected = 0
+
+    def run(self, scene, *options):
+        """Runs a scene, a dict as the file would have it; the program must succeed."""
+        self.runs += 1
+        folder = self.scratch / str(self.runs)
+        path = folder.with_suffix(".yaml")
+        path.write_text(json.dumps(scene))   # JSON is YAML
+        command = [self.program, "run", str(path), "-o", str(folder), *map(str, options)]
+        started = time.monotonic()
+        done = subprocess.run(command, cwd=self.scratch, capture_output=True, text=True)
+        if done.returncode:
+            sys.exit(f"FAILED: exit status {done.returncode}: {' '.join(command)}\n{done.stderr}")
+        run = Run(folder, time.monotonic() - started)
+        self.rejected += run.counted("rejected_steps")
+        shutil.rmtree(folder)
+        return run
+
+    def _note(self, good, text):
+        self.checked += 1
+        print(("ok      " if good else "FAILED  ") + text, flush=True)
+        if not good:
+            self.failed.append(text)
+
+    def check(self, name, value, limit):
+        """`value` must be at most `limit`; NaN fails."""
+        self._note(bool(value <= limit), f"{name}: {value:.4g} (at most {limit:.4g})")
+
+    def at_least(self, name, value, limit):
+        self._note(bool(value >= limit), f"{name}: {value:.4f} (at least {limit:.4f})")
+
+    def close(self, name, value, expected, tolerance):
+        """|value - expected| must be at most `tolerance`."""
+        self._note(bool(abs(value - expected) <= tolerance), f"{name}: {value:.12g}, expected {expected:.12g}, "
+                   f"difference {value - expected:.2g} (at most {tolerance:.2g})")
+
+    def finish(self):
+        seconds = time.monotonic() - self.started
+        print(f"{self.checked} checks, {len(self.failed)} failures, {self.runs} runs, {seconds:.0f} s")
+        for text in self.failed:
+            print("failed: " + text)
+        sys.exit(1 if self.failed else 0)
+
+
+def scene(cable_type, points, cables, end, step, interval, history, gravity=9.81, energy=False, **time_keys):
+    """A scene; `cables` may be one cable's keys, called `cable`, of the type `cable_type`, its keys."""
+    if "from" in cables:
+        cables = {"cable": cables}
+    return {
+        "environment": {"gravity": gravity},
+        "cable_types": {"rope": cable_type},
+        "points": points,
+        "cables": {name: {"type": "rope", **keys} for name, keys in cables.items()},
+        "time": {"end": end, "step": step, **time_keys},
+        "output": {"interval": interval, "history": history, "energy": energy},
+    }
+
+
+def read_reference(name):
+    """A csv of reference/, its `#` lines left out, as {column: array}; columns of words stay text."""
+    lines = [line for line in (REFERENCE / name).read_text().splitlines() if not line.startswith("#")]
+    rows = [line.split(",") for line in lines[1:]]
+    columns = {}
+    for i, key in enumerate(lines[0].split(",")):
+        words = [row[i] for row in rows]
+        try:
+            columns[key] = np.array(words, dtype=float)
+        except ValueError:
+            columns[key] = np.array(words)
+    return columns
+
+
+def rows_at(times, wanted):
+    """Indices into `times` of the `wanted` ones."""
+    index = np.searchsorted(times, np.asarray(wanted) - 1e-9)
+    if np.max(np.abs(times[index] - wanted)) > 1e-9:
+        sys.exit(f"FAILED: times {wanted} are not all among {times[:3]} ... {times[-1]}")
+    return index
+
+
+def orders(errors, ratio=2):
+    """Observed orders between successive errors, each with a step `ratio` times smaller than the one before."""
+    errors = np.asarray(errors)
+    return np.log(errors[:-1] / errors[1:]) / np.log(ratio)
+
+
+def energy_drift(run):
+    """Largest change of the energy balance over the largest kinetic energy."""
+    total = run["energy.total"]
+    return np.abs(total - total[0]).max() / run["energy.kinetic"].max()
