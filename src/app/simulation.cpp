@@ -182,12 +182,13 @@ private:
     write_report(directory_ / "run.yaml", scene_, network_, partition_, report_, PETSC_COMM_WORLD);
     if (rank_ == 0) fmt::print("results in {}: open cables.xmf in ParaView\n", directory_.string());
     if (verdict != solve::Verdict::failed) return 0;
+    const bool conserving = time_.scheme == scene::Scheme::energy_momentum;
     if (rank_ == 0)
-      fmt::print(
-          stderr,
-          "cablenet: error: {}. The state at that time is saved as the last frame in {}. Try a smaller time.step, "
-          "scheme: energy_momentum, or a smaller spectral_radius\n",
-          report_.message, directory_.string());
+      fmt::print(stderr,
+                 "cablenet: error: {}. The state at that time is saved as the last frame in {}. Try a smaller "
+                 "time.step or {}\n",
+                 report_.message, directory_.string(),
+                 conserving ? "some axial_damping" : "scheme: energy_momentum, or a smaller spectral_radius");
     return 3;
   }
 

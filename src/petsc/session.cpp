@@ -8,19 +8,10 @@
 #include "cablenet/petsc/handle.hpp"
 
 namespace cablenet::petsc {
-namespace {
-
-/// Without mpirun, Open MPI starts a daemon for processes that this program never spawns, and hwloc asks any X server
-/// on the machine for its graphics cards; either may fail for reasons of its own.
-void start_quietly() {
-  setenv("HWLOC_COMPONENTS", "-gl", 0);
-  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-}
-
-}   // namespace
 
 Session::Session(const std::string& program, const std::vector<std::string>& options) {
-  start_quietly();
+  // hwloc asks any X server on the machine for its graphics cards and dies with it.
+  setenv("HWLOC_COMPONENTS", "-gl", 0);
   // PETSc keeps the pointers until PetscFinalize.
   static std::vector<std::string> words;
   static std::vector<char*> pointers;

@@ -14,8 +14,11 @@ namespace {
 
 using petsc::check;
 
+/// Over the scene's step: where shrinking it ends.
+constexpr double smallest_step = 1e-9;
+
 /// Newton's tolerance over the forces at the start.
-constexpr double relative_force_tolerance = 1e-10;
+constexpr double relative_force_tolerance = 1e-12;
 
 bool has_option(const char* name) {
   PetscBool found = PETSC_FALSE;
@@ -128,6 +131,7 @@ bool Dynamics::step(double dt) {
   check(TSSetTime(stepper_, t));
   check(TSSetTimeStep(stepper_, dt));
   attempts_ = 0;
+  outside_domain_ = -1;
   check(TSStep(stepper_));
   TSConvergedReason reason = TS_CONVERGED_ITERATING;
   check(TSGetConvergedReason(stepper_, &reason));
@@ -142,17 +146,24 @@ bool Dynamics::step(double dt) {
     explain_failure();
     return false;
   }
-  PetscReal reached = 0, next = 0;
+  PetscReal reached = 0;
   check(TSGetTime(stepper_, &reached));
-  check(TSGetTimeStep(stepper_, &next));
-  last_step_ = retried ? reached - t : dt;
+  accept(t, retried ? reached - t : dt, retried);
+  if (!retried || last_step_ >= smallest_step * time_.step) return true;
+  failure_ = fmt::format("Newton's method succeeds only with steps as short as {:.3g} s", last_step_);
+  return false;
+}
+
+void Dynamics::accept(double t, double taken, bool retried) {
+  last_step_ = taken;
   ++counts_.steps;
-  assembler_.add_work({t, last_step_, alpha_parameters(stepper_).alpha_f, 0});
-  update_acceleration(last_step_);
-  schedule_.advance(last_step_, retried);
+  assembler_.add_work({t, taken, alpha_parameters(stepper_).alpha_f, 0});
+  update_acceleration(taken);
+  PetscReal next = 0;
+  check(TSGetTimeStep(stepper_, &next));
+  schedule_.advance(taken, retried);
   if (user_adapts_) schedule_.set_limit(next);
   check(TSMonitor(stepper_, static_cast<PetscInt>(counts_.steps), schedule_.time(), x_));
-  return true;
 }
 
 /// TSALPHA2 keeps its acceleration to itself, so it is computed again by the same formula.  At spectral radius 1 it
@@ -199,10 +210,10 @@ int Dynamics::failed_element() {
     for (const int node : network.elements[i].node)
       if (node < network.owned) {
         const double size = Eigen::Map<const Vector3>(values + 3 * node).norm();
-        if (size > worst.size || std::isnan(size)) worst = {std::isnan(size) ? 1e300 : size, network.scene_element[i]};
+        if (!(size <= worst.size)) worst = {std::isfinite(size) ? size : 1e300, network.scene_element[i]};
       }
   check(VecRestoreArrayRead(r, &values));
-  if (assembler_.coincident_element() >= 0) worst = {1e301, assembler_.coincident_element()};
+  if (outside_domain_ >= 0) worst = {1e301, outside_domain_};
   MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, assembler_.communicator());
   return worst.element;
 }

@@ -51,6 +51,7 @@ PetscErrorCode Dynamics::residual(TS, PetscReal, Vec x, Vec v, Vec a, Vec r, voi
     PetscFunctionReturn(petsc::success);
   }
   if (!run.assembler_.residual(run.stage(), x, v, a, r)) {
+    run.outside_domain_ = run.assembler_.coincident_element();
     // PETSc's own flag for this stays on one rank, and its line searches then leave the others waiting; a norm does
     // not.
     PetscInt count = 0;
@@ -91,13 +92,17 @@ PetscErrorCode Dynamics::predict(SNES, Vec x, void* self) noexcept {
 
 /// Newton's error falls quadratically, f1 = c f0^2, so c tells how much of a residual that is down to rounding is still
 /// error.
-bool Dynamics::is_at_rounding(double norm, double rounding) {
+bool Dynamics::is_at_rounding(PetscInt iteration, double norm) {
+  const double noise = rounding();
+  // A retry's step may be so short that the first guess is as good as rounding allows.
+  const bool retry = attempts_ > 1;
+  if (iteration == 0) return retry && norm <= 8 * noise;
   const double error = curvature_ * previous_norm_ * previous_norm_;
-  if (norm > rounding) curvature_ = norm / (previous_norm_ * previous_norm_);
-  if (norm <= 0.5 * rounding && error <= 0.01 * rounding) return true;
+  if (norm > noise) curvature_ = norm / (previous_norm_ * previous_norm_);
+  if (norm <= 0.5 * noise && error <= 0.01 * noise) return true;
   // The careful line search of a retry cannot go below rounding at all, and would call that a failure.
-  const bool stuck = norm > 0.25 * previous_norm_ || attempts_ > 1;
-  return stuck && norm <= 8 * rounding;
+  const bool stuck = norm > 0.25 * previous_norm_;
+  return (stuck || retry) && norm <= 8 * noise;
 }
 
 /// PETSc's default test, and the one above: a relative test is of no use with a good first guess.
@@ -107,9 +112,8 @@ PetscErrorCode Dynamics::converged(SNES snes, PetscInt iteration, PetscReal xnor
   auto& run = *static_cast<Dynamics*>(self);
   PetscCall(SNESConvergedDefault(snes, iteration, xnorm, snorm, fnorm, reason, nullptr));
   const bool linear_and_solved = run.in_start_phase() && iteration >= 1;
-  const double rounding = iteration >= 1 && !linear_and_solved ? run.rounding() : 0;
-  const bool at_rounding = iteration >= 1 && run.is_at_rounding(fnorm, rounding);
-  if (*reason == SNES_CONVERGED_ITERATING && (linear_and_solved || at_rounding)) *reason = SNES_CONVERGED_FNORM_ABS;
+  const bool settled = !run.in_start_phase() && run.is_at_rounding(iteration, fnorm);
+  if (*reason == SNES_CONVERGED_ITERATING && (linear_and_solved || settled)) *reason = SNES_CONVERGED_FNORM_ABS;
   run.previous_norm_ = fnorm;
   PetscFunctionReturn(petsc::success);
 }

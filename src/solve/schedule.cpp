@@ -35,8 +35,9 @@ void Schedule::plan() {
 void Schedule::advance(double taken, bool retried) {
   const bool as_planned = std::abs(taken - h_) <= rounding * h_;
   if (as_planned) ++done_;
-  const bool reached = done_ == total_;
-  t_ = reached ? goal() : as_planned ? from_ + static_cast<double>(done_) * h_ : t_ + taken;
+  t_ = as_planned ? from_ + static_cast<double>(done_) * h_ : t_ + taken;
+  const bool reached = done_ == total_ || goal() - t_ <= rounding * step_;
+  if (reached) t_ = goal();
   at_output_ = reached || interval_ <= 0;
   if (reached) ++outputs_;
   const double old_limit = limit_;

@@ -55,7 +55,7 @@ points:
 cables:
   one: {type: rope, from: a, to: b, elements: 20}
   other: {type: rope, from: c, to: d, elements: 16, length: 5.4}
-time: {end: 0.5, step: 2.0e-2}
+time: {end: 0.3, step: 1.0e-2}
 output: {interval: 0, history: [a, b, c, d, one, other], energy: true}
 """),
     "net": ((2, 3, 4, 7), TYPES + """
@@ -64,8 +64,8 @@ points:
 cables: {hanger: {type: rope, from: {net: panel, node: [2, 3]}, to: end, elements: 6}}
 nets:
   panel: {type: thin, corners: [[0, 0, 0], [4, 0.5, 0.2], [4, 1, -3], [0, 0.7, -3]], meshes: [4, 3], slack: 1.02, fixed: [top]}
-time: {end: 0.4, step: 2.0e-2, spectral_radius: 0.8}
-output: {interval: 2.0e-2, history: [end, hanger], energy: true}
+time: {end: 0.25, step: 1.0e-2, spectral_radius: 0.8}
+output: {interval: 1.0e-2, history: [end, hanger], energy: true}
 """),
     "more_ranks_than_nodes": ((2, 7), TYPES + """
 points: {a: {position: [0, 0, 0], motion: fixed}, b: {position: [2, 1, 1], motion: {velocity: [0.1, 0.2, 0.3]}}}
@@ -139,7 +139,7 @@ def main():
             except (Difference, subprocess.TimeoutExpired) as problem:
                 verdict = text = str(problem)
             failures += bool(verdict)
-            print(f"{name}, {ranks} ranks: {text}, {time.monotonic() - start:.1f} s", flush=True)
+            print(f"{name}, {ranks} rank{'s' if ranks > 1 else ''}: {text}, {time.monotonic() - start:.1f} s", flush=True)
             if reference is None:
                 break
     if failures:

@@ -2,6 +2,7 @@
 #include "cablenet/network/network.hpp"
 #include "cablenet/scene/scene.hpp"
 
+/// Tests: tests/parallel/build_test.cpp
 namespace cablenet::network {
 
 /// Discretises the scene: nodes along drawn shapes, taps as nodes of their trunk, nets as grids.

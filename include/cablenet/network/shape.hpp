@@ -3,7 +3,7 @@
 
 #include "cablenet/base/linear_algebra.hpp"
 
-/// Where a cable's nodes lie at the start.  Tests: tests/parallel/build_test.cpp
+/// Where a cable's nodes lie at the start.  Tests: tests/parallel/shape_test.cpp
 namespace cablenet::network {
 
 /// Unstretched arc lengths of `elements` + 1 nodes on a cable of length L: nodes at 0, L and every tap, the elements

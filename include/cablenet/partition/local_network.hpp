@@ -7,6 +7,7 @@
 
 /// This rank's share of the network.  Local nodes are numbered: owned free nodes in solver order, ghosts (free nodes of
 /// other ranks at this rank's elements), prescribed nodes at this rank's elements.
+/// Tests: tests/parallel/local_network_test.cpp
 namespace cablenet::partition {
 
 struct LocalElement {

@@ -62,10 +62,11 @@ private:
   void create_stepper();
   void solve_initial_acceleration();
   bool step(double dt);
+  void accept(double t, double taken, bool retried);
   void update_acceleration(double dt);
   bool in_start_phase() const;
   double rounding() const;
-  bool is_at_rounding(double norm, double rounding);
+  bool is_at_rounding(PetscInt iteration, double norm);
   system::Stage stage() const;
   Instant instant() const;
   void explain_failure();
@@ -94,7 +95,8 @@ private:
   double previous_norm_ = 0;                                     ///< of the residual, one Newton iteration ago [N]
   double curvature_ = std::numeric_limits<double>::infinity();   ///< of Newton's convergence [1/N]
   double last_step_ = 0;                                         ///< [s]
-  int attempts_ = 0;                                             ///< of the running step
+  int outside_domain_ = -1;   ///< scene number of an element that lost its length in the running step
+  int attempts_ = 0;          ///< of the running step
   bool user_adapts_ = false;
   bool user_line_search_ = false;
 };
