@@ -21,7 +21,7 @@ public:
         here_.loads.push_back({local_of_[at(load.node)], load.mass, load.force});
     here_.materials = network_.materials;
     here_.gravity = network_.gravity;
-    here_.loops = partition_.loops;
+    here_.elimination = partition_.elimination;
     return std::move(here_);
   }
 

@@ -124,17 +124,18 @@ int count_loops(const Graph& graph) {
 }
 
 void assign_elements(const network::Network& network, Partition& partition) {
-  const auto free_owner = [&](int node) {
-    return partition.solver_number[at(node)] >= 0 ? partition.node_owner[at(node)] : -1;
-  };
   // An element without free nodes goes to a rank that has rows, so that every rank with elements has a voice in norms.
   const auto first_rank = std::upper_bound(partition.first_number.begin(), partition.first_number.end(), 0);
   const int otherwise = static_cast<int>(first_rank - partition.first_number.begin()) - 1;
+  std::vector<int> degree(network.position.size(), 0);
+  for (const auto& element : network.elements)
+    for (const int node : element.node) ++degree[at(node)];
+  for (const auto& held : network.prescribed) degree[at(held.node)] = 0;
+  // All elements at a branching node on one rank: its forces are then summed in the same order on any number of ranks.
   partition.element_owner.reserve(network.elements.size());
-  for (const auto& element : network.elements) {
-    const int first = free_owner(element.node[0]);
-    const int owner = first >= 0 ? first : free_owner(element.node[1]);
-    partition.element_owner.push_back(owner >= 0 ? owner : otherwise);
+  for (const auto& [node, material, length] : network.elements) {
+    const int busier = degree[at(node[1])] > degree[at(node[0])] ? node[1] : node[0];
+    partition.element_owner.push_back(degree[at(busier)] > 0 ? partition.node_owner[at(busier)] : otherwise);
   }
   std::vector<bool> taken(network.position.size(), false);
   for (std::size_t i = 0; i < network.elements.size(); ++i)
@@ -209,6 +210,9 @@ Partition make_partition(const network::Network& network, MPI_Comm communicator)
   }
   for (std::size_t r = 1; r < partition.first_number.size(); ++r)
     partition.first_number[r] = std::max(partition.first_number[r], partition.first_number[r - 1]);
+  if (partition.loops <= few_loops)
+    for (const int v : elimination_order(graph))
+      partition.elimination.push_back(partition.solver_number[at(free_nodes[at(v)])]);
   assign_elements(network, partition);
   return partition;
 }

@@ -1,5 +1,9 @@
 #include "cablenet/solve/defaults.hpp"
 
+#include <fmt/format.h>
+
+#include <map>
+
 #include "cablenet/petsc/handle.hpp"
 
 namespace cablenet::solve {
@@ -8,35 +12,59 @@ using petsc::check;
 
 namespace {
 
-/// Up to here a network counts as nearly a tree.
-constexpr int few_loops = 10;
+/// Orders that were registered with PETSc, by name: it hands an ordering function nothing else of ours.
+std::map<std::string, std::vector<PetscInt>>& registered_orders() {
+  static std::map<std::string, std::vector<PetscInt>> orders;
+  return orders;
+}
 
-void use_natural_lu(PC pc) {
+PetscErrorCode registered_order(Mat, MatOrderingType name, IS* rows, IS* columns) noexcept {
+  PetscFunctionBeginUser;
+  const std::vector<PetscInt>& order = registered_orders().at(name);
+  for (IS* permutation : {rows, columns}) {
+    PetscCall(ISCreateGeneral(PETSC_COMM_SELF, static_cast<PetscInt>(order.size()), order.data(), PETSC_COPY_VALUES,
+                              permutation));
+    PetscCall(ISSetPermutation(*permutation));
+  }
+  PetscFunctionReturn(petsc::success);
+}
+
+/// The name of a new ordering: three unknowns a node.
+std::string register_order(const std::vector<int>& elimination) {
+  const std::string name = fmt::format("leaf_to_root_{}", registered_orders().size());
+  std::vector<PetscInt>& order = registered_orders()[name];
+  order.reserve(3 * elimination.size());
+  for (const int node : elimination)
+    for (int k = 0; k < 3; ++k) order.push_back(3 * node + k);
+  check(MatOrderingRegister(name.c_str(), registered_order));
+  return name;
+}
+
+void use_lu(PC pc, MatSolverType package, const std::string& ordering) {
   check(PCSetType(pc, PCLU));
-  check(PCFactorSetMatSolverType(pc, MATSOLVERPETSC));
-  check(PCFactorSetMatOrderingType(pc, MATORDERINGNATURAL));
+  check(PCFactorSetMatSolverType(pc, package));
+  if (!ordering.empty()) check(PCFactorSetMatOrderingType(pc, ordering.c_str()));
 }
 
 }   // namespace
 
-void configure_linear_solver(KSP ksp, int loops) {
+void configure_linear_solver(KSP ksp, const std::vector<int>& elimination) {
   PetscMPIInt ranks = 1;
   MPI_Comm_size(PetscObjectComm(reinterpret_cast<PetscObject>(ksp)), &ranks);
   PC pc = nullptr;
   check(KSPSetType(ksp, KSPPREONLY));
   check(KSPGetPC(ksp, &pc));
   if (ranks == 1) {
-    use_natural_lu(pc);
-  } else if (loops <= few_loops) {
+    use_lu(pc, MATSOLVERPETSC, MATORDERINGNATURAL);
+  } else if (!elimination.empty()) {
     KSP inner = nullptr;
     PC inner_pc = nullptr;
     check(PCSetType(pc, PCREDUNDANT));
     check(PCRedundantGetKSP(pc, &inner));
     check(KSPGetPC(inner, &inner_pc));
-    use_natural_lu(inner_pc);
+    use_lu(inner_pc, MATSOLVERPETSC, register_order(elimination));
   } else {
-    check(PCSetType(pc, PCLU));
-    check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+    use_lu(pc, MATSOLVERMUMPS, "");
   }
   check(KSPSetFromOptions(ksp));
 }

@@ -67,7 +67,7 @@ void Dynamics::create_stepper() {
   configure_newton(snes, relative_force_tolerance * scales_.load);
   check(SNESSetConvergenceTest(snes, converged, this, nullptr));
   check(SNESSetComputeInitialGuess(snes, predict, this));
-  configure_linear_solver(ksp, assembler_.network().loops);
+  configure_linear_solver(ksp, assembler_.network().elimination);
   check(TSSetFromOptions(stepper_));
 
   PetscBool fixed_steps = PETSC_TRUE;
@@ -86,7 +86,7 @@ Instant Dynamics::instant() const { return {schedule_.time(), counts_.steps, x_,
 void Dynamics::solve_initial_acceleration() {
   petsc::Handle<KSP, KSPDestroy> ksp;
   check(KSPCreate(assembler_.communicator(), ksp.out()));
-  configure_linear_solver(ksp, assembler_.network().loops);
+  configure_linear_solver(ksp, assembler_.network().elimination);
   assembler_.force(time_.start, x_, v_, x0_);
   assembler_.mass_matrix(matrix_);
   check(KSPSetOperators(ksp, matrix_, matrix_));

@@ -12,7 +12,6 @@ MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OM
        "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
 TOLERANCE = 1e-9      # of a quantity's scale: its largest value in the run
 LIMIT = 120           # s for one run
-OPTIONS = ["-snes_atol", "1e-11"]      # N: what Newton's own tolerance leaves differs from rank to rank by more
 
 TYPES = """
 cable_types:
@@ -83,7 +82,7 @@ class Difference(Exception):
 def run(program, scene, folder, ranks):
     """@return the history's columns and rows"""
     command = ["mpirun", "-n", str(ranks), "--oversubscribe"] if ranks > 1 else []
-    done = subprocess.run([*command, program, "run", scene, "-o", folder, *OPTIONS], env={**MPI, **os.environ}, text=True,
+    done = subprocess.run([*command, program, "run", scene, "-o", folder], env={**MPI, **os.environ}, text=True,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=LIMIT)
     if done.returncode != 0:
         raise Difference(f"status {done.returncode}: {done.stdout}")

@@ -27,7 +27,7 @@ struct LocalNetwork {
   int nodes = 0;                   ///< owned + ghosts + prescribed
   int first_number = 0;            ///< solver number of the first owned node
   int free_nodes = 0;              ///< on all ranks together
-  int loops = 0;                   ///< of the whole network
+  std::vector<int> elimination;    ///< of the whole network, as in Partition
   std::vector<int> ghost_number;   ///< solver numbers of the ghosts
   std::vector<int> scene_node;     ///< per local node
   std::vector<bool> primary;       ///< per local node: this rank speaks for it

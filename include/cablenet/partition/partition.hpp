@@ -16,12 +16,16 @@ struct Partition {
   std::vector<int> solver_number;   ///< per node: contiguous on each rank, leaf to root within it; -1 if prescribed
   std::vector<int> first_number;    ///< per rank, and one past the last
   int loops = 0;                    ///< independent loops of the free nodes' graph: 0 for trees
+  std::vector<int> elimination;     ///< of trees and near-trees: solver numbers in one order for any number of ranks
 };
 
 /// METIS cuts the graph of free nodes on rank 0; each rank orders its own part.
 /// Any number of ranks, also more than nodes, and any number of separate networks.
 /// Collective.
 Partition make_partition(const network::Network& network, MPI_Comm communicator);
+
+/// Networks with at most this many independent loops count as near-trees.
+inline constexpr int few_loops = 10;
 
 /// A graph in compressed rows: the neighbours of vertex i are adjacent[first[i]] .. adjacent[first[i+1]-1].
 struct Graph {
