@@ -123,6 +123,23 @@ int count_loops(const Graph& graph) {
   return static_cast<int>(graph.adjacent.size() / 2) - vertices + pieces;
 }
 
+/// @param order vertices, rank after rank   @param part of every vertex
+void number_nodes(const std::vector<int>& order, const std::vector<int>& free_nodes, const std::vector<int>& part,
+                  int ranks, std::size_t nodes, Partition& partition) {
+  partition.node_owner.assign(nodes, 0);
+  partition.solver_number.assign(nodes, -1);
+  partition.first_number.assign(at(ranks) + 1, 0);
+  int number = 0;
+  for (const int v : order) {
+    const int node = free_nodes[at(v)];
+    partition.node_owner[at(node)] = part[at(v)];
+    partition.solver_number[at(node)] = number++;
+    partition.first_number[at(part[at(v)]) + 1] = number;
+  }
+  for (std::size_t r = 1; r < partition.first_number.size(); ++r)
+    partition.first_number[r] = std::max(partition.first_number[r], partition.first_number[r - 1]);
+}
+
 void assign_elements(const network::Network& network, Partition& partition) {
   // An element without free nodes goes to a rank that has rows, so that every rank with elements has a voice in norms.
   const auto first_rank = std::upper_bound(partition.first_number.begin(), partition.first_number.end(), 0);
@@ -177,10 +194,9 @@ Partition make_partition(const network::Network& network, MPI_Comm communicator)
   int rank = 0, ranks = 1;
   MPI_Comm_rank(communicator, &rank);
   MPI_Comm_size(communicator, &ranks);
-  const std::size_t nodes = network.position.size();
-  std::vector<int> vertex(nodes, 0), free_nodes;
+  std::vector<int> vertex(network.position.size(), 0), free_nodes;
   for (const auto& held : network.prescribed) vertex[at(held.node)] = -1;
-  for (std::size_t i = 0; i < nodes; ++i)
+  for (std::size_t i = 0; i < vertex.size(); ++i)
     if (vertex[i] == 0) {
       vertex[i] = static_cast<int>(free_nodes.size());
       free_nodes.push_back(static_cast<int>(i));
@@ -197,19 +213,8 @@ Partition make_partition(const network::Network& network, MPI_Comm communicator)
   for (int& k : order) k = mine[at(k)];
 
   Partition partition;
+  number_nodes(all_orders(order, vertices, communicator), free_nodes, part, ranks, vertex.size(), partition);
   partition.loops = count_loops(graph);
-  partition.node_owner.assign(nodes, 0);
-  partition.solver_number.assign(nodes, -1);
-  partition.first_number.assign(at(ranks) + 1, 0);
-  int number = 0;
-  for (const int v : all_orders(order, vertices, communicator)) {
-    const int node = free_nodes[at(v)];
-    partition.node_owner[at(node)] = part[at(v)];
-    partition.solver_number[at(node)] = number++;
-    partition.first_number[at(part[at(v)]) + 1] = number;
-  }
-  for (std::size_t r = 1; r < partition.first_number.size(); ++r)
-    partition.first_number[r] = std::max(partition.first_number[r], partition.first_number[r - 1]);
   if (partition.loops <= few_loops)
     for (const int v : elimination_order(graph))
       partition.elimination.push_back(partition.solver_number[at(free_nodes[at(v)])]);

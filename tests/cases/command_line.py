@@ -1,14 +1,13 @@
 """What the command line promises: exit statuses, files, PETSc options, help."""
 import argparse
 import csv
-import os
 import pathlib
 import shutil
 import subprocess
 import sys
 
-MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
-       "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
+from mpi import ENVIRONMENT
+
 SCENE = """
 environment: {gravity: 9.81}
 cable_types:
@@ -39,7 +38,7 @@ class Bench:
     def __call__(self, *arguments, ranks=0):
         launcher = ["mpirun", "-n", str(ranks), "--oversubscribe"] if ranks else []
         return subprocess.run([*launcher, self.program, *arguments], cwd=self.folder, capture_output=True, text=True,
-                              timeout=60, env={**MPI, **os.environ}, check=False)
+                              timeout=60, env=ENVIRONMENT, check=False)
 
     def rows(self, run):
         with open(self.folder / run / "history.csv", encoding="utf-8") as table:

@@ -14,8 +14,8 @@ import xml.etree.ElementTree as xml
 import h5py
 import numpy
 
-MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
-       "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
+from mpi import ENVIRONMENT
+
 TYPES = {("Float", "8"): numpy.float64, ("Int", "4"): numpy.int32}
 SCENE = """
 cable_types:
@@ -88,7 +88,7 @@ def run_and_kill(program, scene, run, sign, delay):
     """Kills a run `delay` seconds after it has written the file `sign`, or after its start."""
     before = identity(run / sign) if sign else None
     with open(run.parent / "log", "ab") as log:
-        mpirun = subprocess.Popen(["mpirun", "-n", "2", program, "run", scene, "-o", run], env={**MPI, **os.environ},
+        mpirun = subprocess.Popen(["mpirun", "-n", "2", program, "run", scene, "-o", run], env=ENVIRONMENT,
                                   stdout=log, stderr=log, start_new_session=True)
     try:
         deadline = time.monotonic() + 60

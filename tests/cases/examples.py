@@ -1,16 +1,15 @@
 """Each example's own run line works, and reaches the number that its README gives."""
 import argparse
 import csv
-import os
 import pathlib
 import re
 import shutil
 import subprocess
 import sys
 
+from mpi import ENVIRONMENT
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
-       "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
 # Columns that are held against reference.csv, until when, and the largest difference allowed (README: about 1.1 times less).
 REFERENCES = {"free_fall": (("free.x", "free.z"), 1.7, 3e-3), "conical_pendulum": (("mass.x", "mass.y", "mass.z"), 10, 1.3e-4),
               "hanging_chain": (("tip.x",), 10, 1.4e-6)}
@@ -42,7 +41,7 @@ def check(example, program, scratch):
     words[words.index("-o") + 1] = str(scratch / name)
     if name in LONG:
         words += ["-ts_max_steps", str(LONG[name])]
-    done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, env={**MPI, **os.environ}, check=False)
+    done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, env=ENVIRONMENT, check=False)
     if done.returncode:
         return f"exit status {done.returncode}: {done.stderr}"
     found = table(scratch / name / "history.csv")

@@ -4,7 +4,6 @@ paraview_read.py RUN                           checks a run
 paraview_read.py --program P --scratch DIR     makes one first
 """
 import argparse
-import os
 import pathlib
 import shutil
 import subprocess
@@ -17,8 +16,6 @@ CELL_FIELDS = ("tension", "strain")
 MESH_FIELDS = ("cable_id", "rank")
 READERS = {"XDMFReader": "FileNames", "Xdmf3ReaderS": "FileName"}
 WITH_XVFB = pathlib.Path(__file__).resolve().parents[2] / "jobs" / "with_xvfb.sh"
-MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
-       "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
 SCENE = """
 cable_types:
   rope: {mass_per_length: 0.1, axial_stiffness: 1.0e4}
@@ -35,11 +32,12 @@ output: {interval: 0}
 
 
 def make_run(program, scratch, ranks):
+    from mpi import ENVIRONMENT
     shutil.rmtree(scratch, ignore_errors=True)
     scratch.mkdir(parents=True)
     (scratch / "scene.yaml").write_text(SCENE)
     subprocess.run(["mpirun", "-n", str(ranks), program, "run", scratch / "scene.yaml", "-o", scratch / "run"],
-                   check=True, env={**MPI, **os.environ})
+                   check=True, env=ENVIRONMENT)
     return scratch / "run"
 
 

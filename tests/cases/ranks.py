@@ -1,15 +1,14 @@
 """Runs scenes on 1, 2, 3, 4 and 7 ranks and checks that their histories agree."""
 import argparse
 import csv
-import os
 import pathlib
 import shutil
 import subprocess
 import sys
 import time
 
-MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
-       "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
+from mpi import ENVIRONMENT
+
 TOLERANCE = 1e-9      # of a quantity's scale: its largest value in the run
 LIMIT = 120           # s for one run
 
@@ -82,7 +81,7 @@ class Difference(Exception):
 def run(program, scene, folder, ranks):
     """@return the history's columns and rows"""
     command = ["mpirun", "-n", str(ranks), "--oversubscribe"] if ranks > 1 else []
-    done = subprocess.run([*command, program, "run", scene, "-o", folder], env={**MPI, **os.environ}, text=True,
+    done = subprocess.run([*command, program, "run", scene, "-o", folder], env=ENVIRONMENT, text=True,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=LIMIT)
     if done.returncode != 0:
         raise Difference(f"status {done.returncode}: {done.stdout}")
