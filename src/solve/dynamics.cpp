@@ -14,8 +14,8 @@ namespace {
 
 using petsc::check;
 
-/// Over the scene's step: where shrinking it ends.
-constexpr double smallest_step = 1e-9;
+/// Over the step that was asked for: where shrinking it ends.
+constexpr double smallest_step = 1e-10;
 
 /// Newton's tolerance over the forces at the start.
 constexpr double relative_force_tolerance = 1e-12;
@@ -73,11 +73,11 @@ void Dynamics::create_stepper() {
   PetscBool fixed_steps = PETSC_TRUE;
   check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(adapt), TSADAPTNONE, &fixed_steps));
   user_adapts_ = fixed_steps == PETSC_FALSE;
-  PetscReal step = time_.step, end = time_.end;
-  check(TSGetTimeStep(stepper_, &step));
+  PetscReal end = time_.end;
+  check(TSGetTimeStep(stepper_, &time_.step));
   check(TSGetMaxTime(stepper_, &end));
   const double interval = schedule_.interval();
-  schedule_ = Schedule(time_.start, std::min<double>(end, time_.end), step, interval);
+  schedule_ = Schedule(time_.start, std::min<double>(end, time_.end), time_.step, interval);
 }
 
 Instant Dynamics::instant() const { return {schedule_.time(), counts_.steps, x_, v_, a_}; }
@@ -117,7 +117,12 @@ Verdict Dynamics::run(const Observers& observers) {
       return Verdict::failed;
     }
     observers.step(schedule_.time(), last_step_, counts_);
-    if (schedule_.at_output()) observers.output(instant());
+    const bool exhausted = last_step_ < smallest_step * time_.step;
+    if (schedule_.at_output() || exhausted) observers.output(instant());
+    if (exhausted) {
+      failure_ = fmt::format("Newton's method succeeds only with steps as short as {:.3g} s", last_step_);
+      return Verdict::failed;
+    }
   }
   return schedule_.time() < time_.end ? Verdict::stopped : Verdict::finished;
 }
@@ -149,15 +154,13 @@ bool Dynamics::step(double dt) {
   PetscReal reached = 0;
   check(TSGetTime(stepper_, &reached));
   accept(t, retried ? reached - t : dt, retried);
-  if (!retried || last_step_ >= smallest_step * time_.step) return true;
-  failure_ = fmt::format("Newton's method succeeds only with steps as short as {:.3g} s", last_step_);
-  return false;
+  return true;
 }
 
 void Dynamics::accept(double t, double taken, bool retried) {
   last_step_ = taken;
   ++counts_.steps;
-  assembler_.add_work({t, taken, alpha_parameters(stepper_).alpha_f, 0});
+  assembler_.add_work({t, taken, alpha_parameters(stepper_).alpha_f});
   update_acceleration(taken);
   PetscReal next = 0;
   check(TSGetTimeStep(stepper_, &next));

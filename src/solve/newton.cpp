@@ -23,8 +23,7 @@ bool Dynamics::in_start_phase() const {
 system::Stage Dynamics::stage() const {
   PetscReal dt = 0;
   check(TSGetTimeStep(stepper_, &dt));
-  const AlphaParameters p = alpha_parameters(stepper_);
-  return {schedule_.time(), dt, p.alpha_f, p.alpha_m};
+  return {schedule_.time(), dt, alpha_parameters(stepper_).alpha_f};
 }
 
 double Dynamics::rounding() const {

@@ -222,7 +222,7 @@ void Assembler::scaled_identity(double s, Mat matrix) {
 
 void Assembler::force(double t, Vec x, Vec v, Vec force) {
   start_prescribed(t);
-  set_prescribed({t, 0, 0, 0});
+  set_prescribed({t, 0, 0});
   scatter(x, state_.x);
   scatter(v, state_.v);
   std::fill_n(state_.a.begin(), 3 * at(network_.owned + network_.ghosts), 0.0);

@@ -1,12 +1,9 @@
 """What the command line promises: exit statuses, files, PETSc options, help."""
-import argparse
 import csv
-import pathlib
-import shutil
 import subprocess
 import sys
 
-from mpi import ENVIRONMENT
+from bench import ENVIRONMENT, arguments
 
 SCENE = """
 environment: {gravity: 9.81}
@@ -121,12 +118,7 @@ def stale_results(bench):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--program", required=True)
-    parser.add_argument("--scratch", type=pathlib.Path, required=True)
-    given = parser.parse_args()
-    shutil.rmtree(given.scratch, ignore_errors=True)
-    given.scratch.mkdir(parents=True)
+    given = arguments(__doc__)
     (given.scratch / "scene.yaml").write_text(SCENE)
     bench = Bench(given.program, given.scratch)
     for part in (runs_and_results, petsc_options, failures_are_told, help_and_check, stale_results):

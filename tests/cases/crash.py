@@ -14,7 +14,7 @@ import xml.etree.ElementTree as xml
 import h5py
 import numpy
 
-from mpi import ENVIRONMENT
+from bench import ENVIRONMENT
 
 TYPES = {("Float", "8"): numpy.float64, ("Int", "4"): numpy.int32}
 SCENE = """

@@ -32,7 +32,7 @@ output: {interval: 0}
 
 
 def make_run(program, scratch, ranks):
-    from mpi import ENVIRONMENT
+    from bench import ENVIRONMENT
     shutil.rmtree(scratch, ignore_errors=True)
     scratch.mkdir(parents=True)
     (scratch / "scene.yaml").write_text(SCENE)

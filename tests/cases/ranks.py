@@ -1,13 +1,11 @@
 """Runs scenes on 1, 2, 3, 4 and 7 ranks and checks that their histories agree."""
-import argparse
 import csv
-import pathlib
 import shutil
 import subprocess
 import sys
 import time
 
-from mpi import ENVIRONMENT
+from bench import ENVIRONMENT, arguments
 
 TOLERANCE = 1e-9      # of a quantity's scale: its largest value in the run
 LIMIT = 120           # s for one run
@@ -114,11 +112,7 @@ def compare(reference, other):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--program", required=True)
-    parser.add_argument("--scratch", type=pathlib.Path, required=True)
-    given = parser.parse_args()
-    shutil.rmtree(given.scratch, ignore_errors=True)
+    given = arguments(__doc__)
     failures = 0
     for name, (numbers, text) in SCENES.items():
         folder = given.scratch / name

@@ -34,11 +34,12 @@ struct Case {
 /// A state within a step, and the shifts by which v and a follow x, as TSALPHA2 has them.
 struct State {
   State(const network::Network& network, double radius) {
-    stage = {0.3, 0.02, 1 / (1 + radius), (2 - radius) / (1 + radius)};
-    const double gamma = 0.5 + stage.alpha_m - stage.alpha_f;
-    const double beta = 0.25 * (1 + stage.alpha_m - stage.alpha_f) * (1 + stage.alpha_m - stage.alpha_f);
+    stage = {0.3, 0.02, 1 / (1 + radius)};
+    const double alpha_m = (2 - radius) / (1 + radius);
+    const double gamma = 0.5 + alpha_m - stage.alpha_f;
+    const double beta = 0.25 * (1 + alpha_m - stage.alpha_f) * (1 + alpha_m - stage.alpha_f);
     shift_v = gamma / (beta * stage.dt);
-    shift_a = stage.alpha_m / (stage.alpha_f * beta * stage.dt * stage.dt);
+    shift_a = alpha_m / (stage.alpha_f * beta * stage.dt * stage.dt);
     const Field zero(network.position.size(), Vector3::Zero());
     x0 = disturbed(network.position, 0.3, 1);
     v0 = disturbed(zero, 2, 1000);

@@ -12,7 +12,7 @@ namespace cablenet::partition {
 struct Partition {
   std::vector<int> node_owner;   ///< per node; a prescribed node belongs to a rank that has an element at it
   std::vector<int>
-      element_owner;   ///< per element: the owner of one of its free nodes; without any, the first rank that owns some
+      element_owner;   ///< per element: the owner of a free node of its, else the first rank with free nodes
   std::vector<int> solver_number;   ///< per node: contiguous on each rank, leaf to root within it; -1 if prescribed
   std::vector<int> first_number;    ///< per rank, and one past the last
   int loops = 0;                    ///< independent loops of the free nodes' graph: 0 for trees

@@ -21,12 +21,11 @@ struct ForceScales {
   double rounding(double furthest, double shift_a) const;
 };
 
-/// A stage of a step from t to t + dt: x_a = x + alpha_f (x1 - x), v_a alike, a_a = a + alpha_m (a1 - a).
+/// A stage of a step from t to t + dt: x_a = x + alpha_f (x1 - x), v_a alike.
 struct Stage {
   double t;
   double dt;
   double alpha_f;
-  double alpha_m;
 };
 
 }   // namespace cablenet::system

@@ -1,0 +1,21 @@
+"""What the scripts here share: mpirun's environment and the arguments that ctest gives."""
+import argparse
+import os
+import pathlib
+import shutil
+
+# As root, with more ranks than cores, on a busy machine; ctest gives the same.
+ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+               "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_mpi_yield_when_idle": "1",
+               "OMPI_MCA_btl_vader_single_copy_mechanism": "none", "HWLOC_COMPONENTS": "-gl", **os.environ}
+
+
+def arguments(description):
+    """--program and --scratch; the scratch folder is new and empty."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("--program", required=True)
+    parser.add_argument("--scratch", type=pathlib.Path, required=True)
+    given = parser.parse_args()
+    shutil.rmtree(given.scratch, ignore_errors=True)
+    given.scratch.mkdir(parents=True)
+    return given
