@@ -1,10 +1,10 @@
 #include "cablenet/partition/partition.hpp"
 
-#include <metis.h>
-
 #include <algorithm>
 #include <numeric>
-#include <stdexcept>
+#include <utility>
+
+#include "cablenet/partition/cut.hpp"
 
 namespace cablenet::partition {
 namespace {
@@ -33,61 +33,6 @@ Graph node_graph(const network::Network& network, const std::vector<int>& vertex
   return graph;
 }
 
-std::vector<idx_t> as_metis(const std::vector<int>& values) { return {values.begin(), values.end()}; }
-
-std::vector<int> cut(const Graph& graph, int parts) {
-  const int vertices = static_cast<int>(graph.first.size()) - 1;
-  std::vector<int> part(at(vertices), 0);
-  if (parts == 1) return part;
-  if (parts >= vertices) {
-    std::iota(part.begin(), part.end(), 0);
-    return part;
-  }
-  std::vector<idx_t> first = as_metis(graph.first);
-  std::vector<idx_t> adjacent = as_metis(graph.adjacent);
-  std::vector<idx_t> result(at(vertices));
-  idx_t count = vertices;
-  idx_t constraints = 1;
-  idx_t wanted = parts;
-  idx_t edges_cut = 0;
-  idx_t options[METIS_NOPTIONS];
-  METIS_SetDefaultOptions(options);
-  options[METIS_OPTION_SEED] = 1;
-  const int status = METIS_PartGraphKway(&count, &constraints, first.data(), adjacent.data(), nullptr, nullptr, nullptr,
-                                         &wanted, nullptr, nullptr, options, &edges_cut, result.data());
-  if (status != METIS_OK) throw std::runtime_error("METIS could not cut the network into parts");
-  std::copy(result.begin(), result.end(), part.begin());
-  return part;
-}
-
-std::vector<int> dissect(const Graph& graph) {
-  idx_t vertices = static_cast<idx_t>(graph.first.size()) - 1;
-  std::vector<idx_t> first = as_metis(graph.first);
-  std::vector<idx_t> adjacent = as_metis(graph.adjacent);
-  std::vector<idx_t> order(at(vertices)), position(at(vertices));
-  idx_t options[METIS_NOPTIONS];
-  METIS_SetDefaultOptions(options);
-  options[METIS_OPTION_SEED] = 1;
-  if (METIS_NodeND(&vertices, first.data(), adjacent.data(), nullptr, options, order.data(), position.data()) !=
-      METIS_OK)
-    throw std::runtime_error("METIS could not order the network");
-  return {order.begin(), order.end()};
-}
-
-/// The subgraph on `vertices`; `position` is scratch, all -1 and left so.
-Graph subgraph(const Graph& graph, const std::vector<int>& vertices, std::vector<int>& position) {
-  for (std::size_t i = 0; i < vertices.size(); ++i) position[at(vertices[i])] = static_cast<int>(i);
-  Graph part;
-  part.first.push_back(0);
-  for (const int v : vertices) {
-    for (int k = graph.first[at(v)]; k < graph.first[at(v) + 1]; ++k)
-      if (position[at(graph.adjacent[at(k)])] >= 0) part.adjacent.push_back(position[at(graph.adjacent[at(k)])]);
-    part.first.push_back(static_cast<int>(part.adjacent.size()));
-  }
-  for (const int v : vertices) position[at(v)] = -1;
-  return part;
-}
-
 std::vector<int> all_orders(const std::vector<int>& mine, int vertices, MPI_Comm communicator) {
   int ranks = 1;
   MPI_Comm_size(communicator, &ranks);
@@ -100,27 +45,48 @@ std::vector<int> all_orders(const std::vector<int>& mine, int vertices, MPI_Comm
   return all;
 }
 
-/// Edges - vertices + connected pieces.
-int count_loops(const Graph& graph) {
-  const int vertices = static_cast<int>(graph.first.size()) - 1;
-  std::vector<bool> seen(at(vertices), false);
-  std::vector<int> front;
-  int pieces = 0;
-  for (int seed = 0; seed < vertices; ++seed) {
-    if (seen[at(seed)]) continue;
-    ++pieces;
-    seen[at(seed)] = true;
-    for (front.assign(1, seed); !front.empty();) {
-      const int v = front.back();
-      front.pop_back();
-      for (int k = graph.first[at(v)]; k < graph.first[at(v) + 1]; ++k) {
-        const int neighbour = graph.adjacent[at(k)];
-        if (!seen[at(neighbour)]) front.push_back(neighbour);
-        seen[at(neighbour)] = true;
-      }
-    }
+struct Cut {
+  std::vector<int> part;         ///< per vertex
+  std::vector<bool> interface;   ///< per vertex
+  std::vector<int> order;        ///< the interface's vertices as they are eliminated
+  Graph coupled;                 ///< by index into order
+};
+
+Cut make_cut(const Graph& graph, MPI_Comm communicator) {
+  int rank = 0, ranks = 1;
+  MPI_Comm_rank(communicator, &rank);
+  MPI_Comm_size(communicator, &ranks);
+  Cut cut;
+  cut.part = rank == 0 ? cut_network(graph, ranks) : std::vector<int>(at(graph.vertices()));
+  MPI_Bcast(cut.part.data(), graph.vertices(), MPI_INT, 0, communicator);
+  cut.interface = find_interface(graph, cut.part);
+  const Graph coupled = interface_graph(graph, cut.interface);
+  const std::vector<int> order = elimination_order(coupled);
+  cut.coupled = subgraph(coupled, order);
+  std::vector<int> vertices;
+  for (int v = 0; v < graph.vertices(); ++v)
+    if (cut.interface[at(v)]) vertices.push_back(v);
+  for (const int i : order) cut.order.push_back(vertices[at(i)]);
+  return cut;
+}
+
+/// The vertices of a part: its interior with the interface at it taken as kept, then its own interface.
+std::vector<int> order_part(const Graph& graph, const Cut& cut, int part) {
+  std::vector<int> vertices;
+  const auto is_inside = [&](int v) { return cut.part[at(v)] == part && !cut.interface[at(v)]; };
+  for (int v = 0; v < graph.vertices(); ++v)
+    if (is_inside(v)) vertices.push_back(v);
+  std::vector<bool> kept(vertices.size(), false);
+  for (const int v : cut.order) {
+    const auto row = graph.adjacent.begin();
+    if (std::any_of(row + graph.first[at(v)], row + graph.first[at(v) + 1], is_inside)) vertices.push_back(v);
   }
-  return static_cast<int>(graph.adjacent.size() / 2) - vertices + pieces;
+  kept.resize(vertices.size(), true);
+  std::vector<int> order = elimination_order(subgraph(graph, vertices), kept);
+  for (int& k : order) k = vertices[at(k)];
+  for (const int v : cut.order)
+    if (cut.part[at(v)] == part) order.push_back(v);
+  return order;
 }
 
 /// @param order vertices, rank after rank   @param part of every vertex
@@ -165,31 +131,6 @@ void assign_elements(const network::Network& network, Partition& partition) {
 
 }   // namespace
 
-std::vector<int> elimination_order(const Graph& graph) {
-  const int vertices = static_cast<int>(graph.first.size()) - 1;
-  std::vector<int> degree(at(vertices)), order;
-  std::vector<bool> gone(at(vertices), false);
-  order.reserve(at(vertices));
-  for (int v = 0; v < vertices; ++v) degree[at(v)] = graph.first[at(v) + 1] - graph.first[at(v)];
-  for (int leaf = 0; leaf < vertices; ++leaf)
-    for (int v = leaf; v >= 0 && !gone[at(v)] && degree[at(v)] <= 1;) {
-      gone[at(v)] = true;
-      order.push_back(v);
-      int parent = -1;
-      for (int k = graph.first[at(v)]; k < graph.first[at(v) + 1]; ++k)
-        if (!gone[at(graph.adjacent[at(k)])]) parent = graph.adjacent[at(k)];
-      if (parent >= 0) --degree[at(parent)];
-      v = parent;
-    }
-  std::vector<int> core;
-  for (int v = 0; v < vertices; ++v)
-    if (!gone[at(v)]) core.push_back(v);
-  if (core.empty()) return order;
-  std::vector<int> scratch(at(vertices), -1);
-  for (const int k : dissect(subgraph(graph, core, scratch))) order.push_back(core[at(k)]);
-  return order;
-}
-
 Partition make_partition(const network::Network& network, MPI_Comm communicator) {
   int rank = 0, ranks = 1;
   MPI_Comm_rank(communicator, &rank);
@@ -201,20 +142,16 @@ Partition make_partition(const network::Network& network, MPI_Comm communicator)
       vertex[i] = static_cast<int>(free_nodes.size());
       free_nodes.push_back(static_cast<int>(i));
     }
-  const int vertices = static_cast<int>(free_nodes.size());
-  const Graph graph = node_graph(network, vertex, vertices);
-  std::vector<int> part = rank == 0 ? cut(graph, ranks) : std::vector<int>(at(vertices));
-  MPI_Bcast(part.data(), vertices, MPI_INT, 0, communicator);
-
-  std::vector<int> mine, scratch(at(vertices), -1);
-  for (int v = 0; v < vertices; ++v)
-    if (part[at(v)] == rank) mine.push_back(v);
-  std::vector<int> order = elimination_order(subgraph(graph, mine, scratch));
-  for (int& k : order) k = mine[at(k)];
-
+  Graph graph = node_graph(network, vertex, static_cast<int>(free_nodes.size()));
+  vertex = {};
   Partition partition;
-  number_nodes(all_orders(order, vertices, communicator), free_nodes, part, ranks, vertex.size(), partition);
   partition.loops = count_loops(graph);
+  graph = simple_graph(graph);
+  Cut cut = make_cut(graph, communicator);
+  number_nodes(all_orders(order_part(graph, cut, rank), graph.vertices(), communicator), free_nodes, cut.part, ranks,
+               network.position.size(), partition);
+  partition.interface.graph = std::move(cut.coupled);
+  for (const int v : cut.order) partition.interface.number.push_back(partition.solver_number[at(free_nodes[at(v)])]);
   if (partition.loops <= few_loops)
     for (const int v : elimination_order(graph))
       partition.elimination.push_back(partition.solver_number[at(free_nodes[at(v)])]);

@@ -3,16 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
 #include <set>
-#include <tuple>
 
+#include "../support/graphs.hpp"
 #include "../support/networks.hpp"
 #include "../support/scenes.hpp"
 
 using namespace cablenet;
 using namespace cablenet::test;
-using partition::Graph;
 
 namespace {
 
@@ -22,6 +20,28 @@ protected:
   partition::Partition partition_ = partition::make_partition(network_, PETSC_COMM_WORLD);
   int ranks_ = size_of(PETSC_COMM_WORLD);
   std::vector<bool> held_ = held_nodes(network_);
+
+  /// Elements between free nodes, as pairs of solver numbers.
+  Edges edges() const {
+    Edges edges;
+    for (const auto& element : network_.elements)
+      if (!held_[at(element.node[0])] && !held_[at(element.node[1])])
+        edges.emplace_back(partition_.solver_number[at(element.node[0])],
+                           partition_.solver_number[at(element.node[1])]);
+    return edges;
+  }
+
+  /// Per solver number.
+  std::vector<bool> on_interface() const {
+    std::vector<bool> found(at(partition_.first_number.back()), false);
+    for (const int number : partition_.interface.number) found.at(at(number)) = true;
+    return found;
+  }
+
+  int rank_of_number(int number) const {
+    const auto next = std::upper_bound(partition_.first_number.begin(), partition_.first_number.end(), number);
+    return static_cast<int>(next - partition_.first_number.begin()) - 1;
+  }
 };
 
 void expect_same_everywhere(std::vector<int> values) {
@@ -61,6 +81,51 @@ TEST_P(Partition, IsTheSameOnAllRanks) {
   expect_same_everywhere(partition_.element_owner);
   expect_same_everywhere(partition_.solver_number);
   expect_same_everywhere(partition_.first_number);
+  expect_same_everywhere(partition_.interface.number);
+  expect_same_everywhere(partition_.interface.graph.first);
+  expect_same_everywhere(partition_.interface.graph.adjacent);
+}
+
+TEST_P(Partition, NoElementJoinsInteriorsOfTwoRanks) {
+  const std::vector<bool> interface = on_interface();
+  for (const auto& [a, b] : edges())
+    EXPECT_TRUE(interface[at(a)] || interface[at(b)] || rank_of_number(a) == rank_of_number(b)) << a << " " << b;
+}
+
+TEST_P(Partition, OneRankHasNoInterfaceAndSeveralHaveOneWhereElementsLeadAcross) {
+  bool across = false;
+  for (const auto& [a, b] : edges()) across = across || rank_of_number(a) != rank_of_number(b);
+  EXPECT_EQ(partition_.interface.number.empty(), !across);
+  EXPECT_EQ(partition_.interface.graph.vertices(), static_cast<int>(partition_.interface.number.size()));
+}
+
+TEST_P(Partition, InterfaceNodesAreTheLastOfTheirRankInTheirOrderOfElimination) {
+  const std::vector<bool> interface = on_interface();
+  for (int number = 0; number + 1 < partition_.first_number.back(); ++number) {
+    const bool same_rank = rank_of_number(number) == rank_of_number(number + 1);
+    EXPECT_TRUE(!interface[at(number)] || interface[at(number + 1)] || !same_rank) << number;
+  }
+  std::vector<int> last(at(ranks_), -1);
+  for (const int number : partition_.interface.number) {
+    EXPECT_GT(number, last[at(rank_of_number(number))]);
+    last[at(rank_of_number(number))] = number;
+  }
+}
+
+TEST_P(Partition, InterfaceGraphIsWhatEliminatedInteriorsLeave) {
+  const std::vector<bool> interface = on_interface();
+  std::vector<int> interior;
+  for (std::size_t number = 0; number < interface.size(); ++number)
+    if (!interface[number]) interior.push_back(static_cast<int>(number));
+  const std::vector<std::set<int>> left = eliminate(static_cast<int>(interface.size()), edges(), interior).left;
+  const partition::Interface& found = partition_.interface;
+  for (std::size_t i = 0; i < found.number.size(); ++i) {
+    std::multiset<int> numbers;
+    for (int k = found.graph.first[i]; k < found.graph.first[i + 1]; ++k)
+      numbers.insert(found.number[at(found.graph.adjacent[at(k)])]);
+    const std::set<int>& expected = left[at(found.number[i])];
+    EXPECT_EQ(numbers, std::multiset<int>(expected.begin(), expected.end())) << "interface node " << i;
+  }
 }
 
 TEST_P(Partition, AnElementBelongsToTheOwnerOfAFreeNode) {
@@ -86,6 +151,15 @@ TEST_P(Partition, NoRankIsLeftOutOfALargeNetwork) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Partition, testing::ValuesIn(kinds_of_networks),
                          [](const auto& scene) { return scene.param.name; });
 
+/// Three ranks cut both nets; the strip's few interface nodes are eliminated first though the scene has them last.
+const std::string two_nets = R"(
+nets:
+  panel: {type: rope, corners: [[0, 0, 0], [14, 0, 0], [14, 0, -8], [0, 0, -8]], meshes: [14, 8]}
+  strip: {type: rope, corners: [[0, 9, 0], [44, 9, 0], [44, 9, -2], [0, 9, -2]], meshes: [44, 2]}
+)";
+
+INSTANTIATE_TEST_SUITE_P(TwoNets, Partition, testing::Values(NamedScene{"two_nets", two_nets}));
+
 TEST(PartitionLoops, AreCountedAmongFreeNodes) {
   const auto loops = [](const std::string& text) {
     return partition::make_partition(network_of(text), PETSC_COMM_WORLD).loops;
@@ -98,89 +172,16 @@ TEST(PartitionLoops, AreCountedAmongFreeNodes) {
   EXPECT_EQ(loops(net), 5 * 3);
 }
 
-namespace {
-
-using Edges = std::vector<std::pair<int, int>>;
-
-Graph graph_of(int vertices, const Edges& edges) {
-  std::vector<std::vector<int>> neighbours(at(vertices));
-  for (const auto& [a, b] : edges) neighbours[at(a)].push_back(b), neighbours[at(b)].push_back(a);
-  Graph graph;
-  graph.first.push_back(0);
-  for (const auto& list : neighbours) {
-    graph.adjacent.insert(graph.adjacent.end(), list.begin(), list.end());
-    graph.first.push_back(static_cast<int>(graph.adjacent.size()));
+TEST(PartitionNumbers, RunAlongAChain) {
+  const network::Network network = network_of(chain);
+  const partition::Partition partition = partition::make_partition(network, PETSC_COMM_WORLD);
+  const std::set<int> interface(partition.interface.number.begin(), partition.interface.number.end());
+  int steps = 0;
+  for (const auto& element : network.elements) {
+    const int a = partition.solver_number[at(element.node[0])], b = partition.solver_number[at(element.node[1])];
+    if (a < 0 || b < 0 || interface.contains(a) || interface.contains(b)) continue;
+    EXPECT_EQ(std::abs(a - b), 1);
+    ++steps;
   }
-  return graph;
-}
-
-/// Place in the elimination per vertex; fails the test unless the order is a permutation.
-std::vector<int> places(int vertices, const Edges& edges) {
-  const std::vector<int> order = partition::elimination_order(graph_of(vertices, edges));
-  std::vector<int> place(at(vertices), -1);
-  EXPECT_EQ(order.size(), at(vertices));
-  for (std::size_t k = 0; k < order.size(); ++k) place.at(at(order[k])) = static_cast<int>(k);
-  EXPECT_TRUE(std::none_of(place.begin(), place.end(), [](int k) { return k < 0; }));
-  return place;
-}
-
-/// Neighbours that come later, per vertex.
-std::vector<int> later_neighbours(const std::vector<int>& place, const Edges& edges) {
-  std::vector<int> later(place.size(), 0);
-  for (const auto& [a, b] : edges) ++later[at(place[at(a)] < place[at(b)] ? a : b)];
-  return later;
-}
-
-/// A tree whose vertex i > 0 hangs on an earlier one within `reach`, its vertices shuffled.
-Edges random_tree(int vertices, int reach, int seed) {
-  std::vector<int> name(at(vertices));
-  std::iota(name.begin(), name.end(), 0);
-  for (int i = vertices - 1; i > 0; --i)
-    std::swap(name[at(i)], name[at(static_cast<int>((test::noise(seed + i) + 0.5) * i))]);
-  Edges edges;
-  for (int i = 1; i < vertices; ++i) {
-    const int back = 1 + static_cast<int>((test::noise(seed + 1000 + i) + 0.5) * std::min(reach, i) * 0.999);
-    edges.emplace_back(name[at(i)], name[at(i - back)]);
-  }
-  return edges;
-}
-
-}   // namespace
-
-TEST(EliminationOrder, TreesHaveNoFill) {
-  for (int seed = 0; seed < 20; ++seed) {
-    const int vertices = 2 + 9 * seed;
-    const Edges edges = random_tree(vertices, 1 + seed % 7, 17 * seed);
-    for (const int count : later_neighbours(places(vertices, edges), edges)) EXPECT_LE(count, 1) << "seed " << seed;
-  }
-}
-
-TEST(EliminationOrder, ForestsAndLonelyVertices) {
-  const Edges edges{{0, 1}, {1, 2}, {4, 5}, {7, 4}, {4, 8}};
-  for (const int count : later_neighbours(places(10, edges), edges)) EXPECT_LE(count, 1);
-  EXPECT_TRUE(partition::elimination_order({{0}, {}}).empty());
-  EXPECT_EQ(partition::elimination_order({{0, 0}, {}}), std::vector<int>{0});
-}
-
-TEST(EliminationOrder, HangingBranchesGoBeforeLoops) {
-  Edges edges;
-  constexpr int side = 6, hanging = 8;
-  for (int i = 0; i < side; ++i)
-    for (int j = 0; j < side; ++j) {
-      if (i + 1 < side) edges.emplace_back(i * side + j, (i + 1) * side + j);
-      if (j + 1 < side) edges.emplace_back(i * side + j, i * side + j + 1);
-    }
-  for (int k = 0; k < hanging; ++k) edges.emplace_back(k == 0 ? 14 : side * side + k - 1, side * side + k);
-  edges.emplace_back(side * side + 3, side * side + hanging);
-  const std::vector<int> place = places(side * side + hanging + 1, edges);
-  const std::vector<int> later = later_neighbours(place, edges);
-  for (int k = 0; k <= hanging; ++k) {
-    EXPECT_LE(place[at(side * side + k)], hanging);
-    EXPECT_EQ(later[at(side * side + k)], 1);
-  }
-}
-
-TEST(EliminationOrder, PairsJoinedTwice) {
-  const Edges edges{{0, 1}, {1, 2}, {2, 1}, {2, 3}, {3, 4}, {4, 3}};
-  places(5, edges);
+  EXPECT_GT(steps, 10);
 }

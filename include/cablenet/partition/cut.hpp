@@ -1,0 +1,24 @@
+#pragma once
+#include <vector>
+
+#include "cablenet/partition/graph.hpp"
+
+/// Cutting a graph into parts that are eliminated each by itself, down to the interface between them.
+/// Tests: tests/parallel/cut_test.cpp
+namespace cablenet::partition {
+
+/// The part of every vertex, so that the most expensive part costs little (elimination_cost).
+/// With at least as many parts as vertices, some parts are empty and the others have one vertex each.
+std::vector<int> cut_network(const Graph& graph, int parts);
+
+/// Per vertex: does it belong to the interface?  A few vertices with an end of every edge that joins two parts.
+std::vector<bool> find_interface(const Graph& graph, const std::vector<int>& part);
+
+/// Per vertex: 1, or 2 where elimination fills in because there is interface, or a loop, on more than one side.
+std::vector<int> elimination_cost(const Graph& graph, const std::vector<bool>& interface);
+
+/// What couples the interface's vertices, in ascending order, once all others are eliminated: their own edges, and
+/// all pairs at the same connected piece of the others.
+Graph interface_graph(const Graph& graph, const std::vector<bool>& interface);
+
+}   // namespace cablenet::partition

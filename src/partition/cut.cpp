@@ -1,0 +1,188 @@
+#include "cablenet/partition/cut.hpp"
+
+#include <metis.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <queue>
+#include <stdexcept>
+#include <utility>
+
+namespace cablenet::partition {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+/// The graph as METIS wants it.
+class Cutter {
+public:
+  explicit Cutter(const Graph& graph)
+      : first_(graph.first.begin(), graph.first.end()), adjacent_(graph.adjacent.begin(), graph.adjacent.end()) {
+    const std::vector<int> piece = connected_pieces(graph);
+    connected_ = std::all_of(piece.begin(), piece.end(), [](int number) { return number == 0; });
+  }
+
+  enum class Way { direct, recursive };
+
+  /// The direct way keeps a part in one piece; the recursive one balances parts of few vertices or heavy branches.
+  std::vector<Way> ways(int parts) const {
+    const bool large = first_.size() > at(least_for_direct) * at(parts);
+    return large ? std::vector<Way>{Way::direct, Way::recursive} : std::vector<Way>{Way::recursive};
+  }
+
+  std::vector<int> cut(const std::vector<int>& weight, int parts, Way way) {
+    std::vector<idx_t> weights(weight.begin(), weight.end()), result(weight.size());
+    idx_t vertices = static_cast<idx_t>(weight.size());
+    idx_t constraints = 1;
+    idx_t wanted = parts;
+    idx_t edges_cut = 0;
+    idx_t options[METIS_NOPTIONS];
+    METIS_SetDefaultOptions(options);
+    options[METIS_OPTION_SEED] = 1;
+    options[METIS_OPTION_UFACTOR] = thousandths_over_average;
+    if (way == Way::direct && connected_) options[METIS_OPTION_CONTIG] = 1;
+    const int status = (way == Way::direct ? METIS_PartGraphKway : METIS_PartGraphRecursive)(
+        &vertices, &constraints, first_.data(), adjacent_.data(), weights.data(), nullptr, nullptr, &wanted, nullptr,
+        nullptr, options, &edges_cut, result.data());
+    if (status != METIS_OK) throw std::runtime_error("METIS could not cut the network into parts");
+    return {result.begin(), result.end()};
+  }
+
+private:
+  static constexpr int least_for_direct = 100;   ///< vertices per part
+  static constexpr idx_t thousandths_over_average = 3;
+
+  std::vector<idx_t> first_;
+  std::vector<idx_t> adjacent_;
+  bool connected_;
+};
+
+/// Cuts again and again with the costs that the last cut has brought about, and keeps the best.
+class Search {
+public:
+  Search(const Graph& graph, int parts) : graph_(graph), parts_(parts), cutter_(graph) {}
+
+  std::vector<int> run() {
+    const auto ways = cutter_.ways(parts_);
+    const std::vector<int> alike(at(graph_.vertices()), 1);
+    if (parts_ == 2 || count_loops(graph_) > loops_of_net) return cutter_.cut(alike, parts_, ways.front());
+    for (const auto way : ways) {
+      std::vector<int> cost = alike;
+      for (int repetition = 0; repetition < most_cuts; ++repetition) cost = try_cut(cutter_.cut(cost, parts_, way));
+      if (imbalance_ < good_imbalance) break;
+    }
+    return std::move(best_);
+  }
+
+private:
+  /// Graphs with more loops than this count as nets: nearly all of their vertices fill in wherever they are cut.
+  static constexpr int loops_of_net = 100;
+  static constexpr int most_cuts = 4;
+  static constexpr double good_imbalance = 1.02;   ///< of the most expensive part to the average
+
+  /// @returns the cost of every vertex
+  std::vector<int> try_cut(std::vector<int> part) {
+    const std::vector<bool> interface = find_interface(graph_, part);
+    std::vector<int> cost = elimination_cost(graph_, interface);
+    std::vector<long> sums(at(parts_), 0);
+    for (std::size_t v = 0; v < part.size(); ++v) sums[at(part[v])] += cost[v];
+    const long largest = *std::max_element(sums.begin(), sums.end());
+    const std::pair<long, long> found{largest, std::count(interface.begin(), interface.end(), true)};
+    if (found < lowest_) {
+      lowest_ = found;
+      imbalance_ =
+          static_cast<double>(largest * parts_) / static_cast<double>(std::accumulate(sums.begin(), sums.end(), 0L));
+      best_ = std::move(part);
+    }
+    return cost;
+  }
+
+  const Graph& graph_;
+  int parts_;
+  Cutter cutter_;
+  std::vector<int> best_;
+  std::pair<long, long> lowest_{std::numeric_limits<long>::max(), 0};   ///< largest cost of a part, interface vertices
+  double imbalance_ = std::numeric_limits<double>::max();
+};
+
+}   // namespace
+
+std::vector<int> cut_network(const Graph& graph, int parts) {
+  std::vector<int> part(at(graph.vertices()), 0);
+  if (parts == 1) return part;
+  if (parts < graph.vertices()) return Search(graph, parts).run();
+  std::iota(part.begin(), part.end(), 0);
+  return part;
+}
+
+std::vector<bool> find_interface(const Graph& graph, const std::vector<int>& part) {
+  std::vector<bool> interface(part.size(), false);
+  const auto open_edges = [&](int v) {
+    int count = 0;
+    for (int k = graph.first[at(v)]; k < graph.first[at(v) + 1]; ++k)
+      count += part[at(graph.adjacent[at(k)])] != part[at(v)] && !interface[at(graph.adjacent[at(k)])];
+    return count;
+  };
+  std::priority_queue<std::pair<int, int>> queue;
+  for (int v = 0; v < graph.vertices(); ++v)
+    if (const int edges = open_edges(v); edges > 0) queue.emplace(edges, -v);
+  std::vector<int> chosen;
+  while (!queue.empty()) {
+    const auto [edges, minus_v] = queue.top();
+    queue.pop();
+    const int left = open_edges(-minus_v);
+    if (left == edges) {
+      interface[at(-minus_v)] = true;
+      chosen.push_back(-minus_v);
+    } else if (left > 0) {
+      queue.emplace(left, minus_v);
+    }
+  }
+  for (const int v : chosen) interface[at(v)] = open_edges(v) > 0;
+  return interface;
+}
+
+std::vector<int> elimination_cost(const Graph& graph, const std::vector<bool>& interface) {
+  const std::vector<bool> stays = unpeeled(graph, interface);
+  std::vector<int> cost(interface.size());
+  for (std::size_t v = 0; v < cost.size(); ++v) cost[v] = stays[v] && !interface[v] ? 2 : 1;
+  return cost;
+}
+
+Graph interface_graph(const Graph& graph, const std::vector<bool>& interface) {
+  const std::vector<int> piece = connected_pieces(graph, interface);
+  std::vector<int> index(interface.size(), -1), vertices;
+  std::vector<std::vector<int>> around(piece.empty() ? 0 : at(1 + *std::max_element(piece.begin(), piece.end())));
+  const auto for_each_neighbour = [&](int v, auto&& visit) {
+    for (int k = graph.first[at(v)]; k < graph.first[at(v) + 1]; ++k) visit(graph.adjacent[at(k)]);
+  };
+  for (int v = 0; v < graph.vertices(); ++v) {
+    if (!interface[at(v)]) continue;
+    const int i = index[at(v)] = static_cast<int>(vertices.size());
+    vertices.push_back(v);
+    for_each_neighbour(v, [&](int w) {
+      if (piece[at(w)] < 0) return;
+      std::vector<int>& ring = around[at(piece[at(w)])];
+      if (ring.empty() || ring.back() != i) ring.push_back(i);
+    });
+  }
+  std::vector<int> met(vertices.size(), -1), visited(around.size(), -1);
+  Graph coupled;
+  coupled.first.push_back(0);
+  for (int i = 0; i < static_cast<int>(vertices.size()); ++i) {
+    const auto couple = [&](int j) {
+      if (j != i && std::exchange(met[at(j)], i) != i) coupled.adjacent.push_back(j);
+    };
+    for_each_neighbour(vertices[at(i)], [&](int w) {
+      if (interface[at(w)])
+        couple(index[at(w)]);
+      else if (std::exchange(visited[at(piece[at(w)])], i) != i)
+        for (const int j : around[at(piece[at(w)])]) couple(j);
+    });
+    coupled.first.push_back(static_cast<int>(coupled.adjacent.size()));
+  }
+  return coupled;
+}
+
+}   // namespace cablenet::partition
