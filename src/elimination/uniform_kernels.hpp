@@ -1,0 +1,87 @@
+#pragma once
+#include <cmath>
+#include <limits>
+
+#include "cablenet/elimination/elimination.hpp"
+
+/// Row-major 3x3 blocks.
+namespace cablenet::elimination {
+
+inline void load_block(double* block, const BlockSource& source, bool touched, const Arrays& arrays) {
+  if (source.absent) return;
+  const double* from = arrays[source.array] + source.offset;
+  const std::size_t down = source.transposed ? 1 : source.stride;
+  const std::size_t right = source.transposed ? source.stride : 1;
+  for (std::size_t r = 0; r < 3; ++r)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double value = from[r * down + c * right];
+      block[3 * r + c] = touched ? block[3 * r + c] + value : value;
+    }
+}
+
+/// In place L U with unit L; the reciprocals of the pivots stand on the diagonal.
+/// @returns the number of negative pivots, -1 if one is zero to rounding.
+inline int factor_block(double* a) {
+  const double largest = std::fmax(std::fmax(std::fabs(a[0]), std::fabs(a[4])), std::fabs(a[8]));
+  const double least = std::numeric_limits<double>::epsilon() * largest;
+  const double p0 = a[0];
+  a[0] = 1 / p0;
+  a[3] *= a[0];
+  a[6] *= a[0];
+  const double p1 = a[4] - a[3] * a[1];
+  a[4] = 1 / p1;
+  a[5] -= a[3] * a[2];
+  a[7] = (a[7] - a[6] * a[1]) * a[4];
+  const double p2 = a[8] - a[6] * a[2] - a[7] * a[5];
+  a[8] = 1 / p2;
+  // Written so that nan counts as zero.
+  const bool regular = std::fabs(p0) > least && std::fabs(p1) > least && std::fabs(p2) > least;
+  return regular ? (p0 < 0) + (p1 < 0) + (p2 < 0) : -1;
+}
+
+/// w D^-1 for each row w.
+inline void divide_right(double* rows, const double* d) {
+  for (int r = 0; r < 3; ++r, rows += 3) {
+    const double w0 = rows[0] * d[0];
+    const double w1 = (rows[1] - w0 * d[1]) * d[4];
+    const double w2 = (rows[2] - w0 * d[2] - w1 * d[5]) * d[8];
+    rows[2] = w2;
+    rows[1] = w1 - w2 * d[7];
+    rows[0] = w0 - rows[1] * d[3] - w2 * d[6];
+  }
+}
+
+/// D^-1 w.
+inline void divide_left(double* w, const double* d) {
+  const double y1 = w[1] - d[3] * w[0];
+  const double y2 = w[2] - d[6] * w[0] - d[7] * y1;
+  w[2] = y2 * d[8];
+  w[1] = (y1 - d[5] * w[2]) * d[4];
+  w[0] = (w[0] - d[1] * w[1] - d[2] * w[2]) * d[0];
+}
+
+/// target -= a b, or target = -a b where `first`.
+inline void update_block(double* target, bool first, const double* a, const double* b) {
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) {
+      const double product = a[3 * r] * b[c] + a[3 * r + 1] * b[3 + c] + a[3 * r + 2] * b[6 + c];
+      target[3 * r + c] = first ? -product : target[3 * r + c] - product;
+    }
+}
+
+inline void transpose_block(double* out, const double* a) {
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) out[3 * r + c] = a[3 * c + r];
+}
+
+/// y -= a x.
+inline void subtract_product(double* y, const double* a, const double* x) {
+  for (int r = 0; r < 3; ++r) y[r] -= a[3 * r] * x[0] + a[3 * r + 1] * x[1] + a[3 * r + 2] * x[2];
+}
+
+/// y -= a^T x.
+inline void subtract_transposed_product(double* y, const double* a, const double* x) {
+  for (int c = 0; c < 3; ++c) y[c] -= a[c] * x[0] + a[3 + c] * x[1] + a[6 + c] * x[2];
+}
+
+}   // namespace cablenet::elimination

@@ -1,0 +1,232 @@
+#include "cablenet/elimination/elimination.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+using namespace cablenet::elimination;
+
+namespace {
+
+using Edges = std::vector<std::pair<int, int>>;
+using Dense = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+double noise(int index) {
+  const double value = std::sin(12.9898 * index + 0.37) * 43758.5453;
+  return value - std::floor(value) - 0.5;
+}
+
+/// A block matrix with entries where `edges` are, its blocks of the sizes given; kept ones last.
+struct System {
+  std::vector<int> size;
+  int eliminated;
+  Edges edges;
+  Dense matrix;
+
+  int begin(int block) const { return std::accumulate(size.begin(), size.begin() + block, 0); }
+  int unknowns() const { return begin(static_cast<int>(size.size())); }
+  bool coupled(int i, int j) const {
+    return i == j || std::any_of(edges.begin(), edges.end(),
+                                 [&](const auto& e) { return e == std::pair(i, j) || e == std::pair(j, i); });
+  }
+  Pattern pattern() const {
+    Pattern pattern{size, eliminated, {0}, {}};
+    for (int k = 0; k < eliminated; ++k) {
+      for (int j = 0; j < static_cast<int>(size.size()); ++j)
+        if (coupled(k, j)) pattern.adjacent.push_back(j);
+      pattern.first.push_back(static_cast<int>(pattern.adjacent.size()));
+    }
+    return pattern;
+  }
+  BlockSource source(int row, int column) const {
+    if (!coupled(row, column)) return {};
+    BlockSource source;
+    source.absent = 0;
+    source.offset = begin(row) * unknowns() + begin(column);
+    source.stride = static_cast<unsigned>(unknowns());
+    return source;
+  }
+  Elimination elimination(bool symmetric) const {
+    return {*make_schedule(pattern(), symmetric), [this](int i, int j) { return source(i, j); }};
+  }
+};
+
+System random_system(std::vector<int> size, int eliminated, const Edges& edges, bool symmetric) {
+  System s{std::move(size), eliminated, edges, {}};
+  s.matrix = Dense::Zero(s.unknowns(), s.unknowns());
+  int seed = 0;
+  for (int i = 0; i < static_cast<int>(s.size.size()); ++i)
+    for (int j = 0; j < static_cast<int>(s.size.size()); ++j)
+      if (s.coupled(i, j))
+        s.matrix.block(s.begin(i), s.begin(j), s.size[at(i)], s.size[at(j)]) =
+            Dense::NullaryExpr(s.size[at(i)], s.size[at(j)], [&] { return noise(++seed); });
+  if (symmetric) s.matrix = (s.matrix + s.matrix.transpose()).eval() / 2;
+  s.matrix.diagonal().array() += 6;
+  return s;
+}
+
+Eigen::VectorXd random_vector(Eigen::Index count) {
+  int seed = 900;
+  return Eigen::VectorXd::NullaryExpr(count, [&] { return noise(++seed); });
+}
+
+/// Eliminates, solves the kept system densely, and goes back.
+Eigen::VectorXd solve(const System& s, bool symmetric, const Eigen::VectorXd& b) {
+  Elimination elimination = s.elimination(symmetric);
+  Eigen::VectorXd w = b;
+  for (int repetition = 0; repetition < 2; ++repetition) {
+    EXPECT_EQ(elimination.factor({s.matrix.data(), nullptr, nullptr}).singular, -1);
+    const int first = s.begin(s.eliminated), count = s.unknowns() - first;
+    Dense kept = s.matrix.bottomRightCorner(count, count);
+    for (const Schedule::Kept& block : elimination.schedule().kept) {
+      const int rows = s.size[at(block.row)], columns = s.size[at(block.column)];
+      const Eigen::Map<const Dense> update(elimination.update(block), rows, columns);
+      const int i = s.begin(block.row) - first, j = s.begin(block.column) - first;
+      kept.block(i, j, rows, columns) += update;
+      if (elimination.schedule().symmetric && i != j) kept.block(j, i, columns, rows) += update.transpose();
+    }
+    w = b;
+    elimination.forward(w.data());
+    if (count > 0) w.tail(count) = kept.partialPivLu().solve(w.tail(count)).eval();
+    elimination.backward(w.data());
+  }
+  return w;
+}
+
+const Edges chain{{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}};
+const Edges tree{{0, 3}, {1, 3}, {2, 4}, {3, 6}, {4, 6}, {5, 6}};
+const Edges loops{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {2, 5}, {4, 5}, {5, 6}, {6, 1}, {3, 7}, {7, 6}};
+
+struct Case {
+  const char* name;
+  std::vector<int> size;
+  int eliminated;
+  Edges edges;
+  bool symmetric;
+  friend void PrintTo(const Case& item, std::ostream* out) { *out << item.name; }
+};
+
+const std::vector<Case> cases{
+    {"chain", std::vector<int>(6, 3), 6, chain, false},
+    {"chain_symmetric", std::vector<int>(6, 3), 6, chain, true},
+    {"chain_between_kept", std::vector<int>(6, 3), 4, {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {0, 5}}, false},
+    {"chain_between_kept_symmetric", std::vector<int>(6, 3), 4, {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {0, 5}}, true},
+    {"tree", std::vector<int>(7, 3), 7, tree, false},
+    {"tree_symmetric", std::vector<int>(7, 3), 7, tree, true},
+    {"loops", std::vector<int>(8, 3), 8, loops, false},
+    {"loops_symmetric", std::vector<int>(8, 3), 8, loops, true},
+    {"loops_kept", std::vector<int>(8, 3), 5, loops, false},
+    {"loops_kept_symmetric", std::vector<int>(8, 3), 5, loops, true},
+    {"all_kept", std::vector<int>(3, 3), 0, {{0, 1}, {1, 2}}, false},
+    {"bodies", {3, 3, 7, 3, 3, 7, 6, 3}, 8, loops, false},
+    {"bodies_kept", {3, 3, 7, 3, 3, 7, 6, 3}, 6, loops, false},
+    {"bodies_symmetric", {3, 3, 7, 3, 3, 7, 6, 3}, 6, loops, true},
+    {"nothing", {}, 0, {}, false},
+};
+
+class EliminationOf : public testing::TestWithParam<Case> {};
+
+/// Stiff elements between light nodes: K + shift m on the diagonal, shift m/4 - K beside it.
+System stiff_chain(int nodes, double stiffness, double mass, bool symmetric) {
+  Edges edges;
+  for (int i = 1; i < nodes; ++i) edges.emplace_back(i - 1, i);
+  System s{std::vector<int>(at(nodes), 3), nodes, edges, Dense::Zero(3 * nodes, 3 * nodes)};
+  for (int i = 0; i < nodes; ++i) {
+    Eigen::Vector3d e(1 + noise(3 * i), noise(3 * i + 1), noise(3 * i + 2)), mean = e;
+    if (!symmetric) mean += 1e-3 * Eigen::Vector3d(noise(7 * i), noise(7 * i + 1), noise(7 * i + 2));
+    const Eigen::Matrix3d K = stiffness * mean.normalized() * e.normalized().transpose();
+    const Eigen::Matrix3d M = mass / 4 * Eigen::Matrix3d::Identity();
+    s.matrix.block<3, 3>(3 * i, 3 * i) += K + 2 * M;
+    if (i + 1 == nodes) break;
+    s.matrix.block<3, 3>(3 * i + 3, 3 * i + 3) += K + 2 * M;
+    s.matrix.block<3, 3>(3 * i, 3 * i + 3) = M - K;
+    s.matrix.block<3, 3>(3 * i + 3, 3 * i) = M - K;
+  }
+  return s;
+}
+
+}   // namespace
+
+TEST_P(EliminationOf, SolvesLikeADenseMatrix) {
+  const Case& item = GetParam();
+  const System s = random_system(item.size, item.eliminated, item.edges, item.symmetric);
+  const Eigen::VectorXd b = random_vector(s.unknowns());
+  const Eigen::VectorXd x = solve(s, item.symmetric, b);
+  EXPECT_LE((s.matrix * x - b).norm(), 1e-13 * b.norm());
+}
+
+TEST_P(EliminationOf, ReadsSymmetricSourcesFromTheOtherTriangle) {
+  const Case& item = GetParam();
+  if (!item.symmetric) return;
+  System s = random_system(item.size, item.eliminated, item.edges, true);
+  const auto transposed = [&s](int i, int j) {
+    BlockSource source = s.source(j, i);
+    source.transposed = 1;
+    return source;
+  };
+  Elimination direct = s.elimination(true), other(*make_schedule(s.pattern(), true), transposed);
+  Eigen::VectorXd w = random_vector(s.unknowns()), v = w;
+  direct.factor({s.matrix.data(), nullptr, nullptr});
+  other.factor({s.matrix.data(), nullptr, nullptr});
+  direct.forward(w.data());
+  other.forward(v.data());
+  EXPECT_LE((w - v).norm(), 1e-14 * w.norm());
+}
+
+INSTANTIATE_TEST_SUITE_P(Patterns, EliminationOf, testing::ValuesIn(cases),
+                         [](const auto& item) { return item.param.name; });
+
+TEST(Elimination, KeepsItsDigitsOnStiffElements) {
+  for (const bool symmetric : {false, true}) {
+    const System s = stiff_chain(200, 1e9, 1, symmetric);
+    const Eigen::VectorXd exact = random_vector(s.unknowns()), b = s.matrix * exact;
+    const Eigen::VectorXd x = solve(s, symmetric, b);
+    EXPECT_LE((s.matrix * x - b).norm(), 1e-14 * b.norm());
+  }
+}
+
+TEST(Elimination, NamesTheSingularPivot) {
+  for (const bool symmetric : {false, true}) {
+    System s = random_system(std::vector<int>(6, 3), 6, chain, symmetric);
+    s.matrix.block<3, 18>(0, 0).setZero();
+    s.matrix.block<18, 3>(0, 0).setZero();
+    Elimination elimination = s.elimination(symmetric);
+    EXPECT_EQ(elimination.factor({s.matrix.data(), nullptr, nullptr}).singular, 0);
+    s = random_system(std::vector<int>(6, 3), 6, chain, symmetric);
+    s.matrix(9, 9) = std::nan("");
+    EXPECT_EQ(elimination.factor({s.matrix.data(), nullptr, nullptr}).singular, 3);
+  }
+  System bodies = random_system({3, 7, 3}, 3, {{0, 1}, {1, 2}}, false);
+  bodies.matrix.middleRows<7>(3).setZero();
+  EXPECT_EQ(bodies.elimination(false).factor({bodies.matrix.data(), nullptr, nullptr}).singular, 1);
+}
+
+TEST(Elimination, CountsNegativeEigenvalues) {
+  System s = random_system(std::vector<int>(8, 3), 8, loops, true);
+  s.matrix.diagonal().segment<7>(8).array() -= 14;
+  const auto eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(s.matrix).eigenvalues();
+  const Pivots pivots = s.elimination(true).factor({s.matrix.data(), nullptr, nullptr});
+  EXPECT_EQ(pivots.negative, (eigenvalues.array() < 0).count());
+  EXPECT_GT(pivots.negative, 3);
+  EXPECT_EQ(pivots.first_negative, 2);
+}
+
+TEST(Schedule, CountsItsWorkAndGivesUpBeyondTheLimit) {
+  const System s = random_system(std::vector<int>(7, 3), 7, tree, false);
+  EXPECT_EQ(make_schedule(s.pattern(), false)->updates, 6);
+  EXPECT_EQ(make_schedule(s.pattern(), false)->later.size(), 6u);
+  EXPECT_FALSE(make_schedule(s.pattern(), false, 5).has_value());
+  EXPECT_THROW(make_schedule({{8}, 1, {0, 0}, {}}, false), std::invalid_argument);
+}
+
+TEST(Schedule, AStarCostsLinearlyInItsArms) {
+  Edges star;
+  for (int i = 0; i < 200; ++i) star.emplace_back(i, 200);
+  const System s = random_system(std::vector<int>(201, 3), 201, star, false);
+  EXPECT_EQ(make_schedule(s.pattern(), false)->updates, 200);
+}
