@@ -47,11 +47,11 @@ Frames::Frames(const network::Network& network, const partition::Partition& part
   block_tension_.resize(mesh_.lines.size());
   block_strain_.resize(mesh_.lines.size());
   const partition::LocalNetwork& here = assembler_.network();
-  tension_.resize(here.elements.size());
-  strain_.resize(here.elements.size());
+  tension_.resize(at(here.own_elements));
+  strain_.resize(at(here.own_elements));
   node_tension_.assign(at(here.nodes), 0);
-  for (const auto& element : here.elements)
-    for (const int node : element.node) node_tension_[at(node)] += 1;
+  for (std::size_t i = 0; i < at(here.own_elements); ++i)
+    for (const int node : here.elements[i].node) node_tension_[at(node)] += 1;
   send(all_nodes_, 1, node_tension_, elements_at_node_, MPI_SUM);
 }
 
@@ -81,7 +81,8 @@ void Frames::make_forests() {
     spoken_for.push_back(i);
     spoken_places.push_back(places.back());
   }
-  for (const int element : here.scene_element) element_places.push_back(block_place(mesh_.elements, element, ranks_));
+  for (std::size_t i = 0; i < at(here.own_elements); ++i)
+    element_places.push_back(block_place(mesh_.elements, here.scene_element[i], ranks_));
   const auto create = [&](StarForest& forest, std::int64_t roots, std::vector<PetscInt>* leaves,
                           std::vector<PetscSFNode>& remote) {
     check(PetscSFCreate(assembler_.communicator(), forest.out()));
@@ -98,7 +99,7 @@ void Frames::make_forests() {
 void Frames::compute_tensions(const system::LocalState& state) {
   const partition::LocalNetwork& here = assembler_.network();
   std::fill(node_tension_.begin(), node_tension_.end(), 0.0);
-  for (std::size_t i = 0; i < here.elements.size(); ++i) {
+  for (std::size_t i = 0; i < at(here.own_elements); ++i) {
     const partition::LocalElement& element = here.elements[i];
     const elements::Chord chord = state.chord(element);
     tension_[i] = elements::cable_tension(here.materials[at(element.material)], element.length, chord);

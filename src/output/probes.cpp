@@ -8,47 +8,53 @@ namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-/// Index of value in values, -1 if it is not there.
-template <class Range, class Value>
-int index_of(const Range& values, const Value& value) {
-  const auto found = std::find(values.begin(), values.end(), value);
-  return found == values.end() ? -1 : static_cast<int>(found - values.begin());
+/// Where this rank has the scene's nodes and the elements that belong to it, -1: not here.
+std::vector<int> places(const std::vector<int>& scene_index, std::size_t count, std::size_t size) {
+  std::vector<int> place(size, -1);
+  for (std::size_t i = 0; i < count; ++i) place[at(scene_index[i])] = static_cast<int>(i);
+  return place;
 }
 
-/// A free node with one element and no load: nothing pulls there.
-bool is_bare_end(const network::Network& network, int node) {
-  const auto here = [&](const auto& item) { return item.node == node; };
-  const auto elements = std::count_if(network.elements.begin(), network.elements.end(), [&](const network::Element& e) {
-    return e.node[0] == node || e.node[1] == node;
-  });
-  return elements == 1 && std::none_of(network.prescribed.begin(), network.prescribed.end(), here) &&
-         std::none_of(network.loads.begin(), network.loads.end(), here);
+/// Free nodes with one element and no load: nothing pulls there.
+std::vector<bool> bare_ends(const network::Network& network) {
+  std::vector<int> pulls(network.position.size(), 0);
+  for (const auto& element : network.elements)
+    for (const int node : element.node) ++pulls[at(node)];
+  for (const auto& held : network.prescribed) pulls[at(held.node)] += 2;
+  for (const auto& load : network.loads) pulls[at(load.node)] += 2;
+  std::vector<bool> bare(pulls.size());
+  std::transform(pulls.begin(), pulls.end(), bare.begin(), [](int count) { return count == 1; });
+  return bare;
 }
 
 }   // namespace
 
 Probes::Probes(const scene::Scene& scene, const network::Network& network, const system::Assembler& assembler)
     : assembler_(assembler), columns_{"time"}, energy_(scene.output.energy) {
+  const partition::LocalNetwork& here = assembler.network();
+  const Places where{places(here.scene_node, at(here.nodes), network.position.size()),
+                     places(here.scene_element, at(here.own_elements), network.elements.size()), bare_ends(network)};
   for (const auto& item : scene.output.history)
-    item.kind == scene::HistoryKind::point ? add_point(scene, network, item.index) : add_cable(network, item.index);
+    item.kind == scene::HistoryKind::point ? add_point(scene, network, item.index, where)
+                                           : add_cable(network, item.index, where);
   if (energy_)
     for (const char* name : {"kinetic", "strain", "gravity", "work", "total"})
       columns_.push_back(std::string("energy.") + name);
   row_.resize(columns_.size());
 }
 
-void Probes::add_point(const scene::Scene& scene, const network::Network& network, int index) {
+void Probes::add_point(const scene::Scene& scene, const network::Network& network, int index, const Places& where) {
   const partition::LocalNetwork& here = assembler_.network();
   const int node = network.point_node[at(index)];
   const scene::Point& point = scene.points[at(index)];
   PointProbe probe{columns_.size()};
   probe.prescribed = point.motion.has_value();
-  const int local = index_of(here.scene_node, node);
+  const int local = where.node[at(node)];
   if (local >= 0 && here.primary[at(local)]) probe.node = local;
   for (std::size_t i = 0; i < here.loads.size(); ++i)
     if (here.loads[i].node == probe.node && probe.node >= 0) probe.load = static_cast<int>(i);
   if (probe.prescribed && local >= 0)
-    for (std::size_t i = 0; i < here.elements.size(); ++i)
+    for (std::size_t i = 0; i < at(here.own_elements); ++i)
       for (int side = 0; side < 2; ++side)
         if (here.elements[i].node[at(side)] == local) probe.ends.push_back({static_cast<int>(i), side});
   points_.push_back(probe);
@@ -58,13 +64,13 @@ void Probes::add_point(const scene::Scene& scene, const network::Network& networ
     for (const char* name : {"fx", "fy", "fz"}) columns_.push_back(point.name + "." + name);
 }
 
-void Probes::add_cable(const network::Network& network, int index) {
+void Probes::add_cable(const network::Network& network, int index, const Places& where) {
   const network::Span& span = network.spans[at(index)];
   const std::array<int, 2> element{span.first_element, span.first_element + span.elements - 1};
   for (int side = 0; side < 2; ++side) {
-    const int local = index_of(assembler_.network().scene_element, element[at(side)]);
+    const int local = where.element[at(element[at(side)])];
     const int node = network.elements[at(element[at(side)])].node[at(side)];
-    if (local >= 0 && !is_bare_end(network, node)) cables_.push_back({columns_.size(), {local, side}});
+    if (local >= 0 && !where.bare_end[at(node)]) cables_.push_back({columns_.size(), {local, side}});
     columns_.push_back(span.name + (side == 0 ? ".tension_from" : ".tension_to"));
   }
 }

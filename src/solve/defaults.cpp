@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <map>
-
 #include "cablenet/petsc/handle.hpp"
 
 namespace cablenet::solve {
@@ -12,61 +10,67 @@ using petsc::check;
 
 namespace {
 
-/// Orders that were registered with PETSc, by name: it hands an ordering function nothing else of ours.
-std::map<std::string, std::vector<PetscInt>>& registered_orders() {
-  static std::map<std::string, std::vector<PetscInt>> orders;
-  return orders;
+/// Block products a node up to which the elimination is faster than MUMPS: nets of some 60 x 60 meshes
+/// (jobs/README.md).
+constexpr double default_limit = 100;
+
+bool user_chose_preconditioner() {
+  PetscBool found = PETSC_FALSE;
+  check(PetscOptionsHasName(nullptr, nullptr, "-pc_type", &found));
+  return found == PETSC_TRUE;
 }
 
-PetscErrorCode registered_order(Mat, MatOrderingType name, IS* rows, IS* columns) noexcept {
-  PetscFunctionBeginUser;
-  const std::vector<PetscInt>& order = registered_orders().at(name);
-  for (IS* permutation : {rows, columns}) {
-    PetscCall(ISCreateGeneral(PETSC_COMM_SELF, static_cast<PetscInt>(order.size()), order.data(), PETSC_COPY_VALUES,
-                              permutation));
-    PetscCall(ISSetPermutation(*permutation));
-  }
-  PetscFunctionReturn(petsc::success);
+double elimination_limit() {
+  PetscReal limit = default_limit;
+  check(PetscOptionsGetReal(nullptr, nullptr, "-cable_elimination_limit", &limit, nullptr));
+  return limit;
 }
 
-/// The name of a new ordering: three unknowns a node.
-std::string register_order(const std::vector<int>& elimination) {
-  const std::string name = fmt::format("leaf_to_root_{}", registered_orders().size());
-  std::vector<PetscInt>& order = registered_orders()[name];
-  order.reserve(3 * elimination.size());
-  for (const int node : elimination)
-    for (int k = 0; k < 3; ++k) order.push_back(3 * node + k);
-  check(MatOrderingRegister(name.c_str(), registered_order));
-  return name;
+bool has_type(Mat matrix, const char* sequential, const char* distributed) {
+  PetscBool matches = PETSC_FALSE;
+  check(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(matrix), &matches, sequential, distributed, ""));
+  return matches == PETSC_TRUE;
 }
 
-void use_lu(PC pc, MatSolverType package, const std::string& ordering) {
-  check(PCSetType(pc, PCLU));
-  check(PCFactorSetMatSolverType(pc, package));
-  if (!ordering.empty()) check(PCFactorSetMatOrderingType(pc, ordering.c_str()));
+bool is_symmetric(Mat matrix) {
+  PetscBool known = PETSC_FALSE, flag = PETSC_FALSE;
+  check(MatIsSymmetricKnown(matrix, &known, &flag));
+  return known == PETSC_TRUE && flag == PETSC_TRUE;
+}
+
+void use_mumps(KSP ksp, PC pc, Mat matrix) {
+  constexpr PetscInt ordering = 7, metis = 5;
+  Mat factors = nullptr;
+  check(KSPSetOperators(ksp, matrix, matrix));
+  check(PCSetType(pc, is_symmetric(matrix) ? PCCHOLESKY : PCLU));
+  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  check(PCFactorSetUpMatSolverType(pc));
+  check(PCFactorGetMatrix(pc, &factors));
+  check(MatMumpsSetIcntl(factors, ordering, metis));
 }
 
 }   // namespace
 
-void configure_linear_solver(KSP ksp, const std::vector<int>& elimination) {
-  PetscMPIInt ranks = 1;
-  MPI_Comm_size(PetscObjectComm(reinterpret_cast<PetscObject>(ksp)), &ranks);
+LinearSolver configure_linear_solver(KSP ksp, const partition::LocalNetwork& network, Mat matrix) {
   PC pc = nullptr;
+  LinearSolver solver;
   check(KSPSetType(ksp, KSPPREONLY));
   check(KSPGetPC(ksp, &pc));
-  if (ranks == 1) {
-    use_lu(pc, MATSOLVERPETSC, MATORDERINGNATURAL);
-  } else if (!elimination.empty()) {
-    KSP inner = nullptr;
-    PC inner_pc = nullptr;
-    check(PCSetType(pc, PCREDUNDANT));
-    check(PCRedundantGetKSP(pc, &inner));
-    check(KSPGetPC(inner, &inner_pc));
-    use_lu(inner_pc, MATSOLVERPETSC, register_order(elimination));
-  } else {
-    use_lu(pc, MATSOLVERMUMPS, "");
+  check(PCSetType(pc, PCLU));
+  if (has_type(matrix, MATSEQAIJ, MATMPIAIJ) && !user_chose_preconditioner()) {
+    const double limit = elimination_limit();
+    solver.elimination = NetworkPc::make(network, matrix, limit);
+    if (solver.elimination) {
+      solver.elimination->attach(pc);
+      solver.reason = fmt::format("{:.1f} block products a node", solver.elimination->updates_per_node());
+    } else {
+      use_mumps(ksp, pc, matrix);
+      solver.factors_are_dear = true;
+      solver.reason = fmt::format("elimination would take more than {} block products a node", limit);
+    }
   }
   check(KSPSetFromOptions(ksp));
+  return solver;
 }
 
 void configure_newton(SNES snes, double force_tolerance) {
@@ -79,7 +83,7 @@ void configure_newton(SNES snes, double force_tolerance) {
   check(SNESSetDivergenceTolerance(snes, petsc::unlimited));
 }
 
-std::string describe_linear_solver(KSP ksp) {
+std::string describe(KSP ksp, const LinearSolver& solver) {
   PC pc = nullptr;
   KSPType ksp_type = nullptr;
   PCType pc_type = nullptr;
@@ -87,12 +91,11 @@ std::string describe_linear_solver(KSP ksp) {
   check(KSPGetPC(ksp, &pc));
   check(KSPGetType(ksp, &ksp_type));
   check(PCGetType(pc, &pc_type));
-  std::string text = std::string(ksp_type) + " + " + pc_type;
   const std::string kind = pc_type;
+  std::string text = fmt::format("{} + {}", ksp_type, kind == PCSHELL ? "network elimination" : kind);
   if (kind == PCLU || kind == PCCHOLESKY) check(PCFactorGetMatSolverType(pc, &package));
-  if (kind == PCREDUNDANT) text += " (the whole network on every rank)";
-  if (package != nullptr) text += " (" + std::string(package) + ")";
-  return text;
+  if (package != nullptr) text += fmt::format(" ({})", package);
+  return solver.reason.empty() ? text : text + ", " + solver.reason;
 }
 
 }   // namespace cablenet::solve

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alpha_parameters.hpp"
 #include "cablenet/base/errors.hpp"
 #include "cablenet/solve/defaults.hpp"
 
@@ -33,12 +32,13 @@ Dynamics::Dynamics(system::Assembler& assembler, const scene::Time& time, double
       time_(time),
       schedule_(time.start, time.end, time.step, output_interval),
       scales_(assembler.force_scales()),
+      tangent_(assembler.make_tangent()),
       user_line_search_(has_option("-snes_linesearch_type")) {
-  for (auto* vector : {&x_, &v_, &a_, &x0_, &v0_, &start_acceleration_, &stepper_acceleration_})
-    *vector = assembler_.make_vector();
-  matrix_ = assembler_.make_matrix();
+  for (auto* vector : {&x_, &v_, &a_, &x0_, &v0_, &start_acceleration_}) *vector = assembler_.make_vector();
   assembler_.fill_initial(x_, v_);
   create_stepper();
+  configure_solvers();
+  read_limits();
 }
 
 void Dynamics::create_stepper() {
@@ -47,7 +47,7 @@ void Dynamics::create_stepper() {
   check(TSAlpha2SetRadius(stepper_, time_.spectral_radius));
   check(TSSetApplicationContext(stepper_, this));
   check(TSSetI2Function(stepper_, nullptr, residual, this));
-  check(TSSetI2Jacobian(stepper_, matrix_, matrix_, jacobian, this));
+  check(TSSetI2Jacobian(stepper_, tangent_.matrix(), tangent_.matrix(), jacobian, this));
   check(TSSetPreStage(stepper_, before_stage));
   check(TS2SetSolution(stepper_, x_, v_));
   check(TSSetTime(stepper_, time_.start));
@@ -58,19 +58,26 @@ void Dynamics::create_stepper() {
   check(TSSetMaxSNESFailures(stepper_, petsc::unlimited));
   check(TSSetErrorIfStepFails(stepper_, PETSC_FALSE));
   TSAdapt adapt = nullptr;
-  SNES snes = nullptr;
-  KSP ksp = nullptr;
   check(TSGetAdapt(stepper_, &adapt));
   check(TSAdaptSetType(adapt, TSADAPTNONE));
-  check(TSGetSNES(stepper_, &snes));
-  check(SNESGetKSP(snes, &ksp));
-  configure_newton(snes, relative_force_tolerance * scales_.load);
-  check(SNESSetConvergenceTest(snes, converged, this, nullptr));
-  check(SNESSetComputeInitialGuess(snes, predict, this));
-  configure_linear_solver(ksp, assembler_.network().elimination);
-  check(TSSetFromOptions(stepper_));
+}
 
+void Dynamics::configure_solvers() {
+  check(TSGetSNES(stepper_, &snes_));
+  check(SNESGetKSP(snes_, &ksp_));
+  configure_newton(snes_, relative_force_tolerance * scales_.load);
+  check(SNESSetConvergenceTest(snes_, converged, this, nullptr));
+  check(SNESSetComputeInitialGuess(snes_, predict, this));
+  linear_ = configure_linear_solver(ksp_, assembler_.network(), tangent_.matrix());
+  check(TSSetFromOptions(stepper_));
+  reuse_ = TangentReuse(snes_, linear_.factors_are_dear);
+}
+
+/// What the user's options made of the scene's times.
+void Dynamics::read_limits() {
+  TSAdapt adapt = nullptr;
   PetscBool fixed_steps = PETSC_TRUE;
+  check(TSGetAdapt(stepper_, &adapt));
   check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(adapt), TSADAPTNONE, &fixed_steps));
   user_adapts_ = fixed_steps == PETSC_FALSE;
   PetscReal end = time_.end;
@@ -84,22 +91,19 @@ Instant Dynamics::instant() const { return {schedule_.time(), counts_.steps, x_,
 
 /// M a0 = f(t0, x0, v0).
 void Dynamics::solve_initial_acceleration() {
-  petsc::Handle<KSP, KSPDestroy> ksp;
-  check(KSPCreate(assembler_.communicator(), ksp.out()));
-  configure_linear_solver(ksp, assembler_.network().elimination);
   assembler_.force(time_.start, x_, v_, x0_);
-  assembler_.mass_matrix(matrix_);
-  check(KSPSetOperators(ksp, matrix_, matrix_));
-  check(KSPSolve(ksp, x0_, start_acceleration_));
+  assembler_.mass_matrix(tangent_);
+  tangent_.publish();
+  check(KSPSetOperators(ksp_, tangent_.matrix(), tangent_.matrix()));
+  check(KSPSolve(ksp_, x0_, start_acceleration_));
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
-  check(KSPGetConvergedReason(ksp, &reason));
+  check(KSPGetConvergedReason(ksp_, &reason));
   if (reason < 0)
     throw SolverError(
         fmt::format("the first acceleration could not be solved for: the linear solver stopped with {}; "
                     "try it without -ksp_type and -pc_type options",
                     KSPConvergedReasons[reason]));
   check(VecCopy(start_acceleration_, a_));
-  check(VecCopy(start_acceleration_, stepper_acceleration_));
 }
 
 Verdict Dynamics::run(const Observers& observers) {
@@ -145,6 +149,7 @@ bool Dynamics::step(double dt) {
   check(TSGetSNESIterations(stepper_, &newton));
   check(TSGetKSPIterations(stepper_, &linear));
   const bool retried = rejected > counts_.rejected;
+  expected_newton_ = static_cast<int>(newton - counts_.newton);
   counts_ = {counts_.steps, rejected, newton, linear};
   choose_line_search(false);
   if (reason < 0) {
@@ -160,7 +165,7 @@ bool Dynamics::step(double dt) {
 void Dynamics::accept(double t, double taken, bool retried) {
   last_step_ = taken;
   ++counts_.steps;
-  assembler_.add_work({t, taken, alpha_parameters(stepper_).alpha_f});
+  assembler_.add_work({t, taken, alpha_.alpha_f});
   update_acceleration(taken);
   PetscReal next = 0;
   check(TSGetTimeStep(stepper_, &next));
@@ -172,36 +177,31 @@ void Dynamics::accept(double t, double taken, bool retried) {
 /// TSALPHA2 keeps its acceleration to itself, so it is computed again by the same formula.  At spectral radius 1 it
 /// alternates about the truth and the step's mean is reported instead.
 void Dynamics::update_acceleration(double dt) {
-  const AlphaParameters p = alpha_parameters(stepper_);
-  Vec A = stepper_acceleration_;
-  check(VecScale(A, -(1 - 2 * p.beta) / (2 * p.beta)));
-  check(VecAXPBYPCZ(A, 1 / (p.beta * dt * dt), -1 / (p.beta * dt * dt), 1, x_, x0_));
-  check(VecAXPY(A, -1 / (p.beta * dt), v0_));
-  const bool alternates = p.alpha_m == 0.5 && p.alpha_f == 0.5;
-  if (alternates) {
-    check(VecCopy(v_, a_));
-    check(VecAXPY(a_, -1, v0_));
-    check(VecScale(a_, 1 / dt));
-  } else {
-    check(VecCopy(A, a_));
+  if (alpha_.alternates()) {
+    check(VecAXPBYPCZ(a_, 1 / dt, -1 / dt, 0, v_, v0_));
+    return;
   }
+  const double beta = alpha_.beta, by_dt2 = 1 / (beta * dt * dt);
+  check(VecAXPBYPCZ(a_, by_dt2, -by_dt2, -(1 - 2 * beta) / (2 * beta), x_, x0_));
+  check(VecAXPY(a_, -1 / (beta * dt), v0_));
 }
 
 void Dynamics::explain_failure() {
-  SNES snes = nullptr;
   SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
   PetscReal dt = 0;
-  check(TSGetSNES(stepper_, &snes));
-  check(SNESGetConvergedReason(snes, &reason));
+  check(SNESGetConvergedReason(snes_, &reason));
   check(TSGetTimeStep(stepper_, &dt));
   failure_ = fmt::format("Newton's method failed ({}) with steps down to {:.3g} s", SNESConvergedReasons[reason], dt);
+  if (!linear_.elimination) return;
+  const PivotReport pivots = linear_.elimination->pivots();
+  failed_node_ = pivots.singular_node;
+  if (failed_node_ >= 0) failure_ += "; the tangent is singular there";
+  if (pivots.negative > 0) failure_ += fmt::format("; the tangent has {} negative pivots", pivots.negative);
 }
 
 int Dynamics::failed_element() {
-  SNES snes = nullptr;
   Vec r = nullptr;
-  check(TSGetSNES(stepper_, &snes));
-  check(SNESGetFunction(snes, &r, nullptr, nullptr));
+  check(SNESGetFunction(snes_, &r, nullptr, nullptr));
   const auto& network = assembler_.network();
   const double* values = nullptr;
   check(VecGetArrayRead(r, &values));
@@ -212,8 +212,9 @@ int Dynamics::failed_element() {
   for (std::size_t i = 0; i < network.elements.size(); ++i)
     for (const int node : network.elements[i].node)
       if (node < network.owned) {
-        const double size = Eigen::Map<const Vector3>(values + 3 * node).norm();
-        if (!(size <= worst.size)) worst = {std::isfinite(size) ? size : 1e300, network.scene_element[i]};
+        double size = Eigen::Map<const Vector3>(values + 3 * node).norm();
+        if (!std::isfinite(size) || network.number(node) == failed_node_) size = 1e300;
+        if (size > worst.size) worst = {size, network.scene_element[i]};
       }
   check(VecRestoreArrayRead(r, &values));
   if (outside_domain_ >= 0) worst = {1e301, outside_domain_};
@@ -221,12 +222,6 @@ int Dynamics::failed_element() {
   return worst.element;
 }
 
-std::string Dynamics::linear_solver() const {
-  SNES snes = nullptr;
-  KSP ksp = nullptr;
-  check(TSGetSNES(stepper_, &snes));
-  check(SNESGetKSP(snes, &ksp));
-  return describe_linear_solver(ksp);
-}
+std::string Dynamics::linear_solver() const { return describe(ksp_, linear_); }
 
 }   // namespace cablenet::solve

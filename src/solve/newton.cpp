@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "alpha_parameters.hpp"
+#include "cablenet/petsc/object_state.hpp"
 #include "cablenet/solve/dynamics.hpp"
 
 /// What TSALPHA2 and its SNES call back.
@@ -15,41 +15,35 @@ constexpr double start_factor = PETSC_VERSION_LT(3, 22, 0) ? 0.5 : 1.0;
 
 }   // namespace
 
-bool Dynamics::in_start_phase() const {
-  const AlphaParameters p = alpha_parameters(stepper_);
-  return p.alpha_m == 1 && p.alpha_f == 1 && p.gamma == 1 && p.beta == 0.5;
+AlphaStep read_alpha_step(TS ts) {
+  PetscReal alpha_m = 0, alpha_f = 0, gamma = 0, beta = 0, dt = 0;
+  check(TSAlpha2GetParams(ts, &alpha_m, &alpha_f, &gamma, &beta));
+  check(TSGetTimeStep(ts, &dt));
+  return {alpha_m, alpha_f, gamma, beta, dt};
 }
 
-system::Stage Dynamics::stage() const {
-  PetscReal dt = 0;
-  check(TSGetTimeStep(stepper_, &dt));
-  return {schedule_.time(), dt, alpha_parameters(stepper_).alpha_f};
-}
-
-double Dynamics::rounding() const {
-  const AlphaParameters p = alpha_parameters(stepper_);
-  const double dt = stage().dt;
-  return scales_.rounding(furthest_, p.alpha_m / (p.alpha_f * p.beta * dt * dt)) / p.alpha_f;
-}
+system::TangentRequest Dynamics::tangent_request() { return {tangent_, alpha_.shift_v(), alpha_.shift_a()}; }
 
 /// A retry searches the line as well; the next step is cheap again.
 void Dynamics::choose_line_search(bool retry) {
   if (user_line_search_) return;
-  SNES snes = nullptr;
   SNESLineSearch search = nullptr;
-  check(TSGetSNES(stepper_, &snes));
-  check(SNESGetLineSearch(snes, &search));
+  check(SNESGetLineSearch(snes_, &search));
   check(SNESLineSearchSetType(search, retry ? SNESLINESEARCHBT : SNESLINESEARCHBASIC));
 }
 
 PetscErrorCode Dynamics::residual(TS, PetscReal, Vec x, Vec v, Vec a, Vec r, void* self) noexcept {
   PetscFunctionBeginUser;
   auto& run = *static_cast<Dynamics*>(self);
-  if (run.in_start_phase()) {
+  if (run.alpha_.is_start()) {
     PetscCall(VecWAXPY(r, -start_factor, run.start_acceleration_, a));
     PetscFunctionReturn(petsc::success);
   }
-  if (!run.assembler_.residual(run.stage(), x, v, a, r)) {
+  // Newton asks for the tangent after each residual but the last: both in one pass where that is not expected.
+  const bool wants_tangent = run.reuse_.computes_always() && run.evaluations_++ < run.expected_newton_;
+  const system::TangentRequest request = run.tangent_request();
+  if (wants_tangent) run.tangent_at_ = petsc::state_of(x);
+  if (!run.assembler_.residual(run.stage(), x, v, a, r, wants_tangent ? &request : nullptr)) {
     run.outside_domain_ = run.assembler_.coincident_element();
     // PETSc's own flag for this stays on one rank, and its line searches then leave the others waiting; a norm does
     // not.
@@ -63,14 +57,19 @@ PetscErrorCode Dynamics::residual(TS, PetscReal, Vec x, Vec v, Vec a, Vec r, voi
   PetscFunctionReturn(petsc::success);
 }
 
-PetscErrorCode Dynamics::jacobian(TS, PetscReal, Vec, Vec, Vec, PetscReal shift_v, PetscReal shift_a, Mat J, Mat P,
+PetscErrorCode Dynamics::jacobian(TS, PetscReal, Vec x, Vec v, Vec, PetscReal shift_v, PetscReal shift_a, Mat J, Mat P,
                                   void* self) noexcept {
   PetscFunctionBeginUser;
   auto& run = *static_cast<Dynamics*>(self);
-  if (run.in_start_phase())
-    run.assembler_.scaled_identity(shift_a, P);
-  else
-    run.assembler_.jacobian(run.stage(), shift_v, shift_a, P);
+  run.reuse_.note_computed();
+  if (run.alpha_.is_start()) {
+    run.tangent_.set_identity(shift_a);
+  } else {
+    if (petsc::state_of(x) != run.tangent_at_)
+      run.assembler_.tangent(run.stage(), x, v, {run.tangent_, shift_v, shift_a});
+    run.tangent_.publish();
+  }
+  run.tangent_at_ = -1;
   if (J != P) {
     PetscCall(MatAssemblyBegin(J, MAT_FINAL_ASSEMBLY));
     PetscCall(MatAssemblyEnd(J, MAT_FINAL_ASSEMBLY));
@@ -82,26 +81,24 @@ PetscErrorCode Dynamics::jacobian(TS, PetscReal, Vec, Vec, Vec, PetscReal shift_
 PetscErrorCode Dynamics::predict(SNES, Vec x, void* self) noexcept {
   PetscFunctionBeginUser;
   auto& run = *static_cast<Dynamics*>(self);
-  if (run.in_start_phase()) PetscFunctionReturn(petsc::success);
-  const PetscReal dt = run.stage().dt;
-  PetscCall(VecCopy(run.x0_, x));
-  PetscCall(VecAXPBYPCZ(x, dt, dt * dt / 2, 1, run.v0_, run.a_));
+  run.alpha_ = read_alpha_step(run.stepper_);
+  run.evaluations_ = 0;
+  run.tangent_at_ = -1;
+  const double dt = run.alpha_.dt;
+  run.reuse_.begin_solve(run.alpha_.is_start() ? -dt : dt);
+  if (run.alpha_.is_start()) PetscFunctionReturn(petsc::success);
+  PetscCall(VecWAXPY(x, dt, run.v0_, run.x0_));
+  PetscCall(VecAXPY(x, dt * dt / 2, run.a_));
   PetscFunctionReturn(petsc::success);
 }
 
-/// Newton's error falls quadratically, f1 = c f0^2, so c tells how much of a residual that is down to rounding is still
-/// error.
 bool Dynamics::is_at_rounding(PetscInt iteration, double norm) {
-  const double noise = rounding();
-  // A retry's step may be so short that the first guess is as good as rounding allows.
-  const bool retry = attempts_ > 1;
-  if (iteration == 0) return retry && norm <= 8 * noise;
-  const double error = curvature_ * previous_norm_ * previous_norm_;
-  if (norm > noise) curvature_ = norm / (previous_norm_ * previous_norm_);
-  if (norm <= 0.5 * noise && error <= 0.01 * noise) return true;
-  // The careful line search of a retry cannot go below rounding at all, and would call that a failure.
-  const bool stuck = norm > 0.25 * previous_norm_;
-  return (stuck || retry) && norm <= 8 * noise;
+  const double noise = scales_.rounding(furthest_, alpha_.shift_a()) / alpha_.alpha_f;
+  const bool is_retry = attempts_ > 1;
+  const bool settled =
+      convergence_.is_at_rounding(static_cast<int>(iteration), norm, noise, is_retry, reuse_.was_kept());
+  if (iteration > 0) reuse_.note_correction(convergence_.contraction());
+  return settled;
 }
 
 /// PETSc's default test, and the one above: a relative test is of no use with a good first guess.
@@ -110,10 +107,9 @@ PetscErrorCode Dynamics::converged(SNES snes, PetscInt iteration, PetscReal xnor
   PetscFunctionBeginUser;
   auto& run = *static_cast<Dynamics*>(self);
   PetscCall(SNESConvergedDefault(snes, iteration, xnorm, snorm, fnorm, reason, nullptr));
-  const bool linear_and_solved = run.in_start_phase() && iteration >= 1;
-  const bool settled = !run.in_start_phase() && run.is_at_rounding(iteration, fnorm);
+  const bool linear_and_solved = run.alpha_.is_start() && iteration >= 1;
+  const bool settled = !run.alpha_.is_start() && run.is_at_rounding(iteration, fnorm);
   if (*reason == SNES_CONVERGED_ITERATING && (linear_and_solved || settled)) *reason = SNES_CONVERGED_FNORM_ABS;
-  run.previous_norm_ = fnorm;
   PetscFunctionReturn(petsc::success);
 }
 
@@ -121,7 +117,7 @@ PetscErrorCode Dynamics::before_stage(TS ts, PetscReal) noexcept {
   PetscFunctionBeginUser;
   Dynamics* run = nullptr;
   PetscCall(TSGetApplicationContext(ts, &run));
-  if (!run->in_start_phase() && run->attempts_++ == 1) run->choose_line_search(true);
+  if (!read_alpha_step(ts).is_start() && run->attempts_++ == 1) run->choose_line_search(true);
   PetscFunctionReturn(petsc::success);
 }
 

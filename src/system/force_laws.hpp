@@ -1,69 +1,113 @@
 #pragma once
-#include "cablenet/elements/cable.hpp"
+#include "cablenet/elements/cable_step.hpp"
+#include "cablenet/system/rules.hpp"
 
-/// How an element's internal force is taken over a step, and its tangent by the stage's chord.
-/// start: chord and force at the step's start; chord: at the stage; end(): at the step's end, from both.
+/// How an element's internal force is taken over a step, with its tangent by the stage's chord.  `general` as in
+/// cable_step.hpp; w, the velocity of node 2 relative to node 1, is zero and not looked at where it is false.
 namespace cablenet::system {
 
-/// What a law is told about an element.
-struct ElementStep {
+/// What a law is told about an element at the stage.
+struct ElementStage {
   const elements::CableMaterial& material;
   double L;
-  const elements::Chord& stage;
-  const elements::Chord& start;
-  const Vector3& start_force;
+  Vector3 d;        ///< x2 - x1 [m]
+  Vector3 w;        ///< v2 - v1 [m/s]
+  double shift_v;   ///< d w / d d [1/s]
 };
 
-inline elements::Chord end_chord(const ElementStep& e, double alpha_f) {
-  return {e.start.d + (e.stage.d - e.start.d) / alpha_f, e.start.w + (e.stage.w - e.start.w) / alpha_f};
-}
+/// What a law keeps of an element at the step's start.
+struct NoStart {};
+template <bool general>
+struct AveragedStart {
+  Vector3 d, f;
+};
+template <>
+struct AveragedStart<true> {
+  Vector3 d, f, w;
+};
 
 /// PETSc's own form: the force at the interpolated stage.
+template <bool is_general>
 struct StageLaw {
+  static constexpr bool general = is_general;
+  using Start = NoStart;
   elements::Tangent kind;
-  bool in_domain(const ElementStep& e) const { return e.stage.d.squaredNorm() > 0; }
-  Vector3 force(const ElementStep& e) const { return elements::cable_force(e.material, e.L, e.stage); }
-  Matrix3 tangent(const ElementStep& e, double shift_v) const {
-    const auto K = elements::cable_force_tangent(e.material, e.L, e.stage, kind);
-    return K.d + shift_v * K.w;
+
+  static Start start(const elements::CableMaterial&, double, const Vector3&, const Vector3&) { return {}; }
+  template <bool with_tangent>
+  bool evaluate(const Start&, const ElementStage& e, Vector3& f, Matrix3& K) const {
+    const elements::Stretch s = elements::stretch(e.d);
+    const double T = elements::instant_tension<general>(e.material, e.L, s, e.w);
+    f = T / s.l * s.d;
+    if constexpr (with_tangent) {
+      const elements::ForceTangent tangent = elements::instant_tangent<general>(e.material, e.L, s, e.w, T, kind);
+      K = tangent.d;
+      if constexpr (general) K += e.shift_v * tangent.w;
+    }
+    return s.l > 0;
   }
 };
 
 /// The papers' generalised alpha: (1 - alpha_f) f(start) + alpha_f f(end).
+template <bool is_general>
 struct AveragedLaw {
-  elements::Tangent kind;
+  static constexpr bool general = is_general;
+  using Start = AveragedStart<general>;
+  StageLaw<general> end;
   double alpha_f;
-  bool in_domain(const ElementStep& e) const { return end_chord(e, alpha_f).d.squaredNorm() > 0; }
-  Vector3 force(const ElementStep& e) const {
-    return (1 - alpha_f) * e.start_force + alpha_f * elements::cable_force(e.material, e.L, end_chord(e, alpha_f));
+
+  static Start start(const elements::CableMaterial& m, double L, const Vector3& d, const Vector3& w) {
+    const elements::Stretch s = elements::stretch(d);
+    const Vector3 f = elements::instant_tension<general>(m, L, s, w) / s.l * d;
+    if constexpr (general)
+      return {d, f, w};
+    else
+      return {d, f};
   }
-  Matrix3 tangent(const ElementStep& e, double shift_v) const {
-    const auto K = elements::cable_force_tangent(e.material, e.L, end_chord(e, alpha_f), kind);
-    return K.d + shift_v * K.w;
+  template <bool with_tangent>
+  bool evaluate(const Start& start, const ElementStage& e, Vector3& f, Matrix3& K) const {
+    ElementStage at_end{e.material, e.L, start.d + (e.d - start.d) / alpha_f, e.w, e.shift_v};
+    if constexpr (general) at_end.w = start.w + (e.w - start.w) / alpha_f;
+    const bool in_domain = end.template evaluate<with_tangent>({}, at_end, f, K);
+    f = (1 - alpha_f) * start.f + alpha_f * f;
+    return in_domain;
   }
 };
 
 /// Energy-momentum; alpha_f = 1/2 as TSALPHA2 has at radius 1.
+template <bool is_general>
 struct EnergyMomentumLaw {
+  static constexpr bool general = is_general;
+  using Start = elements::Stretch;
   elements::Tangent kind;
   double alpha_f;
   double dt;
   double xi;
-  bool in_domain(const ElementStep& e) const { return end_chord(e, alpha_f).d.squaredNorm() > 0; }
-  Vector3 force(const ElementStep& e) const {
-    return elements::energy_momentum_force(e.material, e.L, {e.start.d, end_chord(e, alpha_f).d, dt, xi});
+
+  static Start start(const elements::CableMaterial&, double, const Vector3& d, const Vector3&) {
+    return elements::stretch(d);
   }
-  Matrix3 tangent(const ElementStep& e, double) const {
-    return elements::energy_momentum_tangent(e.material, e.L, {e.start.d, end_chord(e, alpha_f).d, dt, xi}, kind) /
-           alpha_f;
+  template <bool with_tangent>
+  bool evaluate(const Start& s0, const ElementStage& e, Vector3& f, Matrix3& K) const {
+    const elements::Stretch s1 = elements::stretch(s0.d + (e.d - s0.d) / alpha_f);
+    const elements::TensionSlope tension = elements::step_tension<general>(e.material, e.L, s0.l, s1.l, dt, xi);
+    f = elements::energy_momentum_force(tension, s0, s1);
+    if constexpr (with_tangent) K = 1 / alpha_f * elements::energy_momentum_tangent(tension, s0, s1, kind);
+    return s1.l > 0;
   }
 };
 
 /// No internal force: leaves the mass matrix.
 struct NoLaw {
-  bool in_domain(const ElementStep&) const { return true; }
-  Vector3 force(const ElementStep&) const { return Vector3::Zero(); }
-  Matrix3 tangent(const ElementStep&, double) const { return Matrix3::Zero(); }
+  static constexpr bool general = false;
+  using Start = NoStart;
+
+  template <bool with_tangent>
+  bool evaluate(const Start&, const ElementStage&, Vector3& f, Matrix3& K) const {
+    f.setZero();
+    K.setZero();
+    return true;
+  }
 };
 
 }   // namespace cablenet::system

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "access.hpp"
 #include "cablenet/system/assembler.hpp"
 #include "element_loop.hpp"
 
@@ -19,9 +20,21 @@ double ForceScales::rounding(double furthest, double shift_a) const {
 
 const LocalState& Assembler::observe(double t, Vec x, Vec v, Vec a) {
   state_.t = t;
-  scatter(x, state_.x);
-  scatter(v, state_.v);
-  scatter(a, state_.a);
+  for (auto* field : {&state_.x, &state_.v, &state_.a}) field->resize(3 * at(network_.nodes));
+  Access access(*this, x, v, a, nullptr);
+  evaluated_ = -1;
+  access.begin_exchange();
+  const std::ptrdiff_t values = 3 * std::ptrdiff_t{network_.owned};
+  std::copy_n(access.data.x, values, state_.x.begin());
+  std::copy_n(access.data.v, values, state_.v.begin());
+  std::copy_n(access.data.a, values, state_.a.begin());
+  access.finish_exchange();
+  for (int i = network_.owned; i < network_.owned + network_.ghosts; ++i) {
+    const NodeMotion& ghost = outside_[at(i - network_.owned)];
+    LocalState::at(state_.x, i) = Eigen::Map<const Vector3>(ghost.x);
+    LocalState::at(state_.v, i) = Eigen::Map<const Vector3>(ghost.v);
+    LocalState::at(state_.a, i) = Eigen::Map<const Vector3>(ghost.a);
+  }
   for (const auto& [node, motion] : network_.prescribed) {
     const scene::Kinematics k = motion.at(t);
     LocalState::at(state_.x, node) = k.x;
@@ -33,7 +46,7 @@ const LocalState& Assembler::observe(double t, Vec x, Vec v, Vec a) {
 
 Energies Assembler::energies() const {
   Energies sum;
-  for_each_element(network_, [&](std::size_t, const partition::LocalElement& e) {
+  for_each_element(network_, {0, network_.own_elements}, [&](std::size_t, const partition::LocalElement& e) {
     const elements::CableMaterial& material = network_.materials[at(e.material)];
     const auto v1 = LocalState::at(state_.v, e.node[0]);
     const auto v2 = LocalState::at(state_.v, e.node[1]);
@@ -54,15 +67,14 @@ Energies Assembler::energies() const {
 }
 
 ForceScales Assembler::force_scales() {
-  for (auto [vector, values] : {std::pair{&state_.x, &network_.position}, std::pair{&state_.v, &network_.velocity}})
-    for (int i = 0; i < network_.nodes; ++i) LocalState::at(*vector, i) = (*values)[at(i)];
   double load = 0, stiffness = 0, mass = 0;
-  for_each_element(network_, [&](std::size_t, const partition::LocalElement& e) {
+  for_each_element(network_, {0, network_.own_elements}, [&](std::size_t, const partition::LocalElement& e) {
     const elements::CableMaterial& material = network_.materials[at(e.material)];
     const double m = material.mass_per_length * e.length;
-    const double speed =
-        std::max(LocalState::at(state_.v, e.node[0]).norm(), LocalState::at(state_.v, e.node[1]).norm());
-    const double tension = elements::cable_tension(material, e.length, state_.chord(e));
+    const Vector3 &v1 = network_.velocity[at(e.node[0])], &v2 = network_.velocity[at(e.node[1])];
+    const double speed = std::max(v1.norm(), v2.norm());
+    const Vector3 d = network_.position[at(e.node[1])] - network_.position[at(e.node[0])];
+    const double tension = elements::cable_tension(material, e.length, {d, v2 - v1});
     load += square(tension) + square(m * network_.gravity) + square(m * speed * speed / e.length);
     stiffness += square(2 * material.axial_stiffness / e.length);
     mass += square(m);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "../support/networks.hpp"
 
 using namespace cablenet;
@@ -68,13 +70,18 @@ Field residual(System& system, const State& s, double step) {
   return system.field(r);
 }
 
-/// Jacobian times s.direction at the state of the last residual.
-Field tangent(System& system, const State& s) {
-  const system::Matrix matrix = system.assembler.make_matrix();
+/// Tangent times s.direction.
+Field times_direction(System& system, const State& s, system::TangentMatrix& tangent) {
   const system::Vector product = system.assembler.make_vector();
-  system.assembler.jacobian(s.stage, s.shift_v, s.shift_a, matrix);
-  petsc::check(MatMult(matrix, system.vector(s.direction), product));
+  tangent.publish();
+  petsc::check(MatMult(tangent.matrix(), system.vector(s.direction), product));
   return system.field(product);
+}
+
+Field tangent(System& system, const State& s) {
+  system::TangentMatrix matrix = system.assembler.make_tangent();
+  system.assembler.tangent(s.stage, system.vector(s.x), system.vector(s.v), {matrix, s.shift_v, s.shift_a});
+  return times_direction(system, s, matrix);
 }
 
 class Assembler : public testing::TestWithParam<Case> {
@@ -117,6 +124,25 @@ TEST_P(Assembler, TheJacobianOfTheInternalForceAlone) {
   EXPECT_LE(size(difference(central, exact)), 1e-6 * size(exact));
 }
 
+/// The same values whether they come with the residual or alone, and whatever stood in the matrix before.
+TEST_P(Assembler, ResidualAndTangentInOnePass) {
+  begin(everywhere_);
+  const Field r = residual(everywhere_, state_, 0);
+  const Field alone = tangent(everywhere_, state_);
+  system::TangentMatrix matrix = everywhere_.assembler.make_tangent();
+  const system::Vector both = everywhere_.assembler.make_vector();
+  const system::TangentRequest request{matrix, state_.shift_v, state_.shift_a};
+  for (int repetition = 0; repetition < 2; ++repetition) {
+    everywhere_.assembler.residual(state_.stage, everywhere_.vector(state_.x), everywhere_.vector(state_.v),
+                                   everywhere_.vector(state_.a), both, &request);
+    EXPECT_EQ(size(difference(everywhere_.field(both), r)), 0);
+    EXPECT_EQ(size(difference(times_direction(everywhere_, state_, matrix), alone)), 0);
+  }
+  matrix.set_identity(2.5);
+  const Field nowhere(network_.position.size(), Vector3::Zero());
+  EXPECT_EQ(size(difference(times_direction(everywhere_, state_, matrix), moved(nowhere, 2.5, state_.direction))), 0);
+}
+
 TEST_P(Assembler, AllNumbersOfRanksAgree) {
   begin(everywhere_);
   begin(alone_);
@@ -141,7 +167,8 @@ TEST_P(Assembler, CoincidentNodesAreNamed) {
   const system::Vector r = everywhere_.assembler.make_vector();
   const system::Vector v = everywhere_.vector(state_.v), a = everywhere_.vector(state_.a);
   const bool fine = everywhere_.assembler.residual(state_.stage, everywhere_.vector(state_.x), v, a, r);
-  const bool mine = everywhere_.partition.element_owner[at(element)] == rank_of(PETSC_COMM_WORLD);
+  const std::vector<int>& here = everywhere_.assembler.network().scene_element;
+  const bool mine = std::find(here.begin(), here.end(), element) != here.end();
   EXPECT_EQ(fine, !mine);
   EXPECT_EQ(everywhere_.assembler.coincident_element(), mine ? element : -1);
   EXPECT_TRUE(everywhere_.assembler.residual(state_.stage, everywhere_.vector(usual.x), v, a, r));

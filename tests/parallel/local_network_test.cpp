@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
 #include <set>
 
 #include "../support/networks.hpp"
@@ -53,16 +55,55 @@ TEST_P(LocalNetwork, NumbersNodesByTheirKind) {
 }
 
 TEST_P(LocalNetwork, HasItsElementsWithTheirNodes) {
-  EXPECT_EQ(counts(here_.scene_element, network_.elements.size()), std::vector<int>(network_.elements.size(), 1));
+  const int rank = rank_of(PETSC_COMM_WORLD);
   ASSERT_EQ(here_.scene_element.size(), here_.elements.size());
+  const std::vector<int> own(here_.scene_element.begin(), here_.scene_element.begin() + here_.own_elements);
+  EXPECT_EQ(counts(own, network_.elements.size()), std::vector<int>(network_.elements.size(), 1));
+  EXPECT_LE(here_.inner_elements, here_.own_elements);
   for (std::size_t i = 0; i < here_.elements.size(); ++i) {
     const partition::LocalElement& element = here_.elements[i];
     const network::Element& whole = network_.elements[at(here_.scene_element[i])];
-    EXPECT_EQ(partition_.element_owner[at(here_.scene_element[i])], rank_of(PETSC_COMM_WORLD));
+    EXPECT_EQ(partition_.element_owner[at(here_.scene_element[i])] == rank, i < at(here_.own_elements));
+    EXPECT_EQ(element.node[0] < here_.owned && element.node[1] < here_.owned, i < at(here_.inner_elements));
     EXPECT_EQ(element.material, whole.material);
     EXPECT_EQ(element.length, whole.length);
     for (std::size_t side = 0; side < 2; ++side) EXPECT_EQ(here_.scene_node[at(element.node[side])], whole.node[side]);
   }
+}
+
+TEST_P(LocalNetwork, HasAllElementsAtItsOwnNodes) {
+  std::set<int> here(here_.scene_element.begin(), here_.scene_element.end());
+  EXPECT_EQ(here.size(), here_.scene_element.size());
+  for (std::size_t e = 0; e < network_.elements.size(); ++e)
+    for (const int node : network_.elements[e].node)
+      EXPECT_TRUE(held_[at(node)] || partition_.node_owner[at(node)] != rank_of(PETSC_COMM_WORLD) ||
+                  here.contains(static_cast<int>(e)))
+          << "element " << e << " at node " << node;
+}
+
+TEST_P(LocalNetwork, GhostsStandWhereTheirOwnersSendThem) {
+  std::vector<int> sent(here_.sent.size()), count(at(size_of(PETSC_COMM_WORLD)));
+  std::transform(here_.sent.begin(), here_.sent.end(), sent.begin(), [&](int node) { return here_.number(node); });
+  const int mine = static_cast<int>(sent.size());
+  MPI_Allgather(&mine, 1, MPI_INT, count.data(), 1, MPI_INT, PETSC_COMM_WORLD);
+  std::vector<int> begin(count.size() + 1, 0);
+  std::partial_sum(count.begin(), count.end(), begin.begin() + 1);
+  std::vector<int> all(at(begin.back()));
+  MPI_Allgatherv(sent.data(), mine, MPI_INT, all.data(), count.data(), begin.data(), MPI_INT, PETSC_COMM_WORLD);
+  ASSERT_EQ(here_.ghost_place.size(), at(here_.ghosts));
+  for (std::size_t g = 0; g < here_.ghost_place.size(); ++g)
+    EXPECT_EQ(all.at(at(begin[at(here_.ghost_owner[g])] + here_.ghost_place[g])), here_.ghost_number[g]);
+}
+
+TEST_P(LocalNetwork, InteriorsOfDifferentRanksDoNotMeet) {
+  const std::set<int> shared(here_.interface.number.begin(), here_.interface.number.end());
+  for (int i = 0; i < here_.owned; ++i) EXPECT_EQ(shared.contains(here_.number(i)), i >= here_.interior);
+  for (const auto& element : here_.elements)
+    for (std::size_t side = 0; side < 2; ++side) {
+      const int ghost = element.node[1 - side];
+      if (element.node[side] >= here_.interior || ghost < here_.owned || !here_.is_free(ghost)) continue;
+      EXPECT_TRUE(shared.contains(here_.number(ghost)));
+    }
 }
 
 TEST_P(LocalNetwork, NodesLoadsAndHeldNodesAreSpokenForOnce) {

@@ -72,7 +72,10 @@ struct EndForces {
 };
 
 /// M q, q = a + beta v at the two nodes; M as in cable_kinetic_energy.  [N]
-EndForces cable_inertia(const CableMaterial&, double L, const Vector3& q1, const Vector3& q2);
+inline EndForces cable_inertia(const CableMaterial& m, double L, const Vector3& q1, const Vector3& q2) {
+  const double sixth = m.mass_per_length * L / 6;
+  return {sixth * (2 * q1 + q2), sixth * (q1 + 2 * q2)};
+}
 
 /// What the neighbours must pull with at the two ends for the element to move as it does:
 /// M (a + beta v) + (-f, +f) - weight/2 each.  [N]

@@ -43,8 +43,15 @@ private:
     ElementEnd end;
   };
 
-  void add_point(const scene::Scene& scene, const network::Network& network, int index);
-  void add_cable(const network::Network& network, int index);
+  /// By the scene's numbers: local nodes, this rank's own elements (-1: not here), ends where nothing pulls.
+  struct Places {
+    std::vector<int> node;
+    std::vector<int> element;
+    std::vector<bool> bare_end;
+  };
+
+  void add_point(const scene::Scene& scene, const network::Network& network, int index, const Places& where);
+  void add_cable(const network::Network& network, int index, const Places& where);
   Vector3 end_force(const system::LocalState& state, const ElementEnd& end) const;
   void put(std::size_t column, const Vector3& value);
 

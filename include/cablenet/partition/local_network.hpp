@@ -6,8 +6,9 @@
 #include "cablenet/partition/partition.hpp"
 
 /// This rank's share of the network.  Local nodes are numbered: owned free nodes in solver order, ghosts (free nodes of
-/// other ranks at this rank's elements), prescribed nodes at this rank's elements.
-/// Tests: tests/parallel/local_network_test.cpp
+/// other ranks at this rank's elements), prescribed nodes at this rank's elements.  Elements at an owned free node are
+/// all here, so that nothing but the ghosts' motion has to come from other ranks; one between two ranks is thus on
+/// both, and belongs to one of them. Tests: tests/parallel/local_network_test.cpp
 namespace cablenet::partition {
 
 struct LocalElement {
@@ -27,11 +28,18 @@ struct LocalNetwork {
   int nodes = 0;                   ///< owned + ghosts + prescribed
   int first_number = 0;            ///< solver number of the first owned node
   int free_nodes = 0;              ///< on all ranks together
-  std::vector<int> elimination;    ///< of the whole network, as in Partition
+  int interior = 0;                ///< owned nodes before those of the interface
+  Interface interface;             ///< of all ranks, as in Partition
   std::vector<int> ghost_number;   ///< solver numbers of the ghosts
+  std::vector<int> ghost_owner;    ///< rank
+  std::vector<int> ghost_place;    ///< where it stands in its owner's `sent`
+  std::vector<int> sent;           ///< owned nodes that are ghosts elsewhere
   std::vector<int> scene_node;     ///< per local node
   std::vector<bool> primary;       ///< per local node: this rank speaks for it
+  /// First those between owned nodes, then the others that belong to this rank, then those that belong to another.
   std::vector<LocalElement> elements;
+  int inner_elements = 0;                  ///< between owned nodes
+  int own_elements = 0;                    ///< that belong to this rank
   std::vector<int> scene_element;          ///< per local element
   std::vector<network::PointLoad> loads;   ///< at nodes that this rank speaks for; node is local
   std::vector<LocalPrescribed> prescribed;

@@ -2,25 +2,32 @@
 #include <petscksp.h>
 #include <petscsnes.h>
 
+#include <memory>
 #include <string>
-#include <vector>
+
+#include "cablenet/solve/network_pc.hpp"
 
 /// PETSc solver defaults in one place; whatever the user's options say wins.
 namespace cablenet::solve {
 
-/// KSP preonly with LU in natural (leaf-to-root) order on one rank.  On more ranks: for trees and near-trees the same
-/// LU of the whole network on every rank (exact, and many times cheaper than a distributed factorisation while fill is
-/// nil), eliminating in the same order, so that rounding is the same too; for nets MUMPS. Reads the options database.
-/// Collective.
-/// @param elimination  node numbers in the order of elimination; empty for nets
-void configure_linear_solver(KSP ksp, const std::vector<int>& elimination);
+/// What solves the linear systems, and why.
+struct LinearSolver {
+  std::unique_ptr<NetworkPc> elimination;   ///< where the KSP uses it
+  bool factors_are_dear = false;            ///< many times a solve: a net's
+  std::string reason;                       ///< "12.4 block products a node"
+};
+
+/// KSP preonly with the network elimination, or, where its symbolic pass predicts more than -cable_elimination_limit
+/// block products a node (nets), MUMPS with METIS.  Reads the options database.  Collective.
+/// @param matrix  AIJ unless the user chose another type, which gets PETSc's LU
+LinearSolver configure_linear_solver(KSP ksp, const partition::LocalNetwork& network, Mat matrix);
 
 /// Newton with a basic line search, an absolute tolerance alone.
 /// @param force_tolerance [N]
 /// Does not read the options database: TSSetFromOptions does.
 void configure_newton(SNES snes, double force_tolerance);
 
-/// "preonly + lu (mumps)": what a configured KSP really is.
-std::string describe_linear_solver(KSP ksp);
+/// "preonly + lu (mumps), reason": what a configured KSP really is.
+std::string describe(KSP ksp, const LinearSolver& solver);
 
 }   // namespace cablenet::solve

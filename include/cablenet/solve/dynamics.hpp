@@ -6,7 +6,11 @@
 #include <string>
 
 #include "cablenet/scene/scene.hpp"
+#include "cablenet/solve/alpha_step.hpp"
+#include "cablenet/solve/defaults.hpp"
+#include "cablenet/solve/newton_convergence.hpp"
 #include "cablenet/solve/schedule.hpp"
+#include "cablenet/solve/tangent_reuse.hpp"
 #include "cablenet/system/assembler.hpp"
 
 /// A run through time with PETSc's TSALPHA2.  Tests: tests/parallel/dynamics_test.cpp, tests/verification
@@ -60,14 +64,15 @@ public:
 
 private:
   void create_stepper();
+  void configure_solvers();
+  void read_limits();
   void solve_initial_acceleration();
   bool step(double dt);
   void accept(double t, double taken, bool retried);
   void update_acceleration(double dt);
-  bool in_start_phase() const;
-  double rounding() const;
+  system::TangentRequest tangent_request();
   bool is_at_rounding(PetscInt iteration, double norm);
-  system::Stage stage() const;
+  system::Stage stage() const { return {schedule_.time(), alpha_.dt, alpha_.alpha_f}; }
   Instant instant() const;
   void explain_failure();
   void choose_line_search(bool retry);
@@ -84,17 +89,25 @@ private:
   scene::Time time_;
   Schedule schedule_;
   system::ForceScales scales_;
-  system::Vector x_, v_, a_;                                   ///< a_: what is reported and predicted with
-  system::Vector x0_, v0_;                                     ///< at the step's start
-  system::Vector start_acceleration_, stepper_acceleration_;   ///< the latter mirrors TSALPHA2's own
-  system::Matrix matrix_;
+  system::Vector x_, v_, a_;   ///< a_: what is reported and predicted with
+  system::Vector x0_, v0_;     ///< at the step's start
+  system::Vector start_acceleration_;
+  system::TangentMatrix tangent_;
+  LinearSolver linear_;
   TimeStepper stepper_;
+  SNES snes_ = nullptr;   ///< the stepper's
+  KSP ksp_ = nullptr;
+  TangentReuse reuse_;
+  AlphaStep alpha_{};                  ///< of the running Newton solve
+  int evaluations_ = 0;                ///< of the residual in it
+  PetscObjectState tangent_at_ = -1;   ///< of the x at which a residual brought its tangent along
+  int expected_newton_ = 1;            ///< as many as the last step took
   Counts counts_;
   std::string failure_;
-  double furthest_ = 0;                                          ///< largest coordinate [m]
-  double previous_norm_ = 0;                                     ///< of the residual, one Newton iteration ago [N]
-  double curvature_ = std::numeric_limits<double>::infinity();   ///< of Newton's convergence [1/N]
-  double last_step_ = 0;                                         ///< [s]
+  int failed_node_ = -1;   ///< solver number: where the tangent was singular
+  double furthest_ = 0;    ///< largest coordinate [m]
+  NewtonConvergence convergence_;
+  double last_step_ = 0;      ///< [s]
   int outside_domain_ = -1;   ///< scene number of an element that lost its length in the running step
   int attempts_ = 0;          ///< of the running step
   bool user_adapts_ = false;

@@ -28,4 +28,13 @@ struct Stage {
   double alpha_f;
 };
 
+class TangentMatrix;
+
+/// Where a tangent goes, and how v and a follow x in an implicit step: dv/dx [1/s], da/dx [1/s^2].
+struct TangentRequest {
+  TangentMatrix& matrix;
+  double shift_v;
+  double shift_a;
+};
+
 }   // namespace cablenet::system

@@ -1,0 +1,40 @@
+#pragma once
+#include <mpi.h>
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "cablenet/elimination/elimination.hpp"
+
+namespace cablenet::solve {
+
+/// Sends the blocks (interface node, interior node) from the rank that has the row to the one that eliminates the
+/// column.  A symmetric matrix does not need it.
+class CouplingExchange {
+public:
+  explicit CouplingExchange(MPI_Comm communicator) : communicator_(communicator) {}
+
+  /// Both are named by solver numbers; every block must be told to both ranks before the first run().
+  void add_send(int rank, int row, int column, const elimination::BlockSource& source) {
+    sends_[rank][{row, column}] = source;
+  }
+  void add_receive(int rank, int row, int column) { receives_[rank][{row, column}] = {}; }
+  /// After the last add_receive: where block (row, column) will stand in received().
+  void settle();
+  elimination::BlockSource source(int rank, int row, int column) const { return receives_.at(rank).at({row, column}); }
+
+  const double* received() const { return received_.data(); }
+  /// Between neighbours; every rank must call it.
+  void run(const elimination::Arrays& arrays);
+
+private:
+  using Blocks = std::map<std::pair<int, int>, elimination::BlockSource>;
+
+  MPI_Comm communicator_;
+  std::map<int, Blocks> sends_, receives_;
+  std::vector<double> sent_, received_;
+  std::vector<MPI_Request> requests_;
+};
+
+}   // namespace cablenet::solve

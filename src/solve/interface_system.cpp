@@ -1,0 +1,79 @@
+#include "interface_system.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "cablenet/petsc/phase.hpp"
+
+namespace cablenet::solve {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+partition::Graph rows_of(const partition::Graph& graph) {
+  partition::Graph rows;
+  rows.first.push_back(0);
+  for (int i = 0; i < graph.vertices(); ++i) {
+    const auto begin = static_cast<std::ptrdiff_t>(rows.adjacent.size());
+    rows.adjacent.insert(rows.adjacent.end(), graph.adjacent.begin() + graph.first[at(i)],
+                         graph.adjacent.begin() + graph.first[at(i) + 1]);
+    rows.adjacent.push_back(i);
+    std::sort(rows.adjacent.begin() + begin, rows.adjacent.end());
+    rows.first.push_back(static_cast<int>(rows.adjacent.size()));
+  }
+  return rows;
+}
+
+}   // namespace
+
+elimination::Pattern InterfaceSystem::pattern(const partition::Interface& interface) {
+  const int nodes = static_cast<int>(interface.number.size());
+  return {std::vector<int>(at(nodes), 3), nodes, nodes == 0 ? std::vector<int>{0} : interface.graph.first,
+          interface.graph.adjacent};
+}
+
+InterfaceSystem::InterfaceSystem(const partition::Interface& interface, elimination::Schedule schedule,
+                                 MPI_Comm communicator)
+    : communicator_(communicator), rows_(rows_of(interface.graph)), failures_(3 * interface.number.size()) {
+  sum_.resize(failures_ + 1 + 9 * rows_.adjacent.size());
+  const auto where = [this](int row, int column) {
+    const auto begin = rows_.adjacent.begin() + rows_.first[at(row)];
+    const auto end = rows_.adjacent.begin() + rows_.first[at(row) + 1];
+    if (!std::binary_search(begin, end, column)) return elimination::BlockSource{};
+    return elimination::block_source(static_cast<int>(block(row, column)), 3, 0);
+  };
+  elimination_ = std::make_unique<elimination::Elimination>(std::move(schedule), where);
+}
+
+std::size_t InterfaceSystem::block(int row, int column) const {
+  const auto begin = rows_.adjacent.begin() + rows_.first[at(row)];
+  const auto found = std::lower_bound(begin, rows_.adjacent.begin() + rows_.first[at(row) + 1], column);
+  return failures_ + 1 + 9 * static_cast<std::size_t>(found - rows_.adjacent.begin());
+}
+
+void InterfaceSystem::clear(bool new_matrix) {
+  new_matrix_ = new_matrix;
+  std::fill(sum_.begin(), new_matrix ? sum_.end() : sum_.begin() + static_cast<std::ptrdiff_t>(failures_) + 1, 0.0);
+}
+
+void InterfaceSystem::add(int row, int column, const double* values, std::size_t stride, bool transposed) {
+  double* to = sum_.data() + block(row, column);
+  for (std::size_t r = 0; r < 3; ++r)
+    for (std::size_t c = 0; c < 3; ++c) to[3 * r + c] += transposed ? values[c * stride + r] : values[r * stride + c];
+}
+
+bool InterfaceSystem::solve() {
+  {
+    const petsc::Timer timer(petsc::Phase::exchange);
+    const std::size_t count = new_matrix_ ? sum_.size() : failures_ + 1;
+    MPI_Allreduce(MPI_IN_PLACE, sum_.data(), static_cast<int>(count), MPI_DOUBLE, MPI_SUM, communicator_);
+  }
+  if (sum_[failures_] != 0) return false;
+  if (new_matrix_) pivots_ = elimination_->factor({sum_.data(), nullptr, nullptr});
+  if (pivots_.singular >= 0) return false;
+  elimination_->forward(sum_.data());
+  elimination_->backward(sum_.data());
+  return true;
+}
+
+}   // namespace cablenet::solve

@@ -1,0 +1,21 @@
+#include "cablenet/solve/newton_convergence.hpp"
+
+namespace cablenet::solve {
+
+/// Newton's error falls quadratically, f1 = c f0^2, so c tells how much of a residual that is down to rounding is still
+/// error; with a kept tangent it falls linearly.
+bool NewtonConvergence::is_at_rounding(int iteration, double norm, double noise, bool is_retry, bool same_tangent) {
+  const double previous = previous_norm_;
+  previous_norm_ = norm;
+  contraction_ = iteration == 0 || previous == 0 ? 0 : norm / previous;
+  if (iteration == 0) return is_retry && norm <= 8 * noise;
+  const double error = same_tangent ? rate_ * previous : curvature_ * previous * previous;
+  if (norm > noise && same_tangent) rate_ = contraction_;
+  if (norm > noise && !same_tangent) curvature_ = norm / (previous * previous);
+  if (norm <= 0.5 * noise && error <= 0.01 * noise) return true;
+  // The careful line search of a retry cannot go below rounding at all, and would call that a failure.
+  const bool stuck = norm > 0.25 * previous;
+  return (stuck || is_retry) && norm <= 8 * noise;
+}
+
+}   // namespace cablenet::solve

@@ -1,0 +1,173 @@
+#include "cablenet/system/tangent_matrix.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "cablenet/petsc/object_state.hpp"
+
+namespace cablenet::system {
+namespace {
+
+using petsc::check;
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+/// Block columns of each owned node's row, ascending, in compressed rows.
+struct BlockRows {
+  std::vector<int> first;
+  std::vector<int> column;
+
+  int blocks(int row) const { return first[at(row) + 1] - first[at(row)]; }
+  int place(int row, int wanted) const {
+    const auto begin = column.begin() + first[at(row)];
+    const auto found = std::lower_bound(begin, column.begin() + first[at(row) + 1], wanted);
+    return static_cast<int>(found - begin);
+  }
+};
+
+/// @param each  calls its argument with every (row, column), repetitions included
+template <class Each>
+BlockRows block_rows(int rows, const Each& each) {
+  BlockRows result;
+  std::vector<int> next(at(rows) + 1, 0);
+  each([&](int row, int) { ++next[at(row) + 1]; });
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  const std::vector<int> first = next;
+  result.column.resize(at(next.back()));
+  each([&](int row, int column) { result.column[at(next[at(row)]++)] = column; });
+  result.first.push_back(0);
+  auto to = result.column.begin();
+  for (int row = 0; row < rows; ++row) {
+    const auto begin = result.column.begin() + first[at(row)], end = result.column.begin() + first[at(row) + 1];
+    std::sort(begin, end);
+    to = std::copy(begin, std::unique(begin, end), to);
+    result.first.push_back(static_cast<int>(to - result.column.begin()));
+  }
+  result.column.resize(at(result.first.back()));
+  return result;
+}
+
+}   // namespace
+
+/// The rows of this rank, split by whose the columns are.
+class TangentMatrix::Pattern {
+public:
+  explicit Pattern(const partition::LocalNetwork& network)
+      : network_(network),
+        own_(block_rows(network.owned, [this](const auto& visit) { for_each_pair(true, visit); })),
+        other_(block_rows(network.owned, [this](const auto& visit) { for_each_pair(false, visit); })) {
+    written_[0].assign(own_.column.size(), false);
+    written_[1].assign(other_.column.size(), false);
+  }
+
+  Slot slot(int row, int column) {
+    if (row >= network_.owned || !network_.is_free(column)) return {};
+    const bool other = column >= network_.owned;
+    const BlockRows& rows = other ? other_ : own_;
+    const int place = rows.place(row, network_.number(column));
+    const std::size_t block = at(rows.first[at(row)] + place);
+    Slot slot;
+    slot.offset = 9 * rows.first[at(row)] + 3 * place;
+    slot.stride = static_cast<unsigned>(3 * rows.blocks(row)) & 0x1fffffff;
+    slot.other = other;
+    slot.absent = 0;
+    slot.add = written_[slot.other][block];
+    written_[slot.other][block] = true;
+    return slot;
+  }
+
+  void preallocate(Mat matrix) const {
+    std::vector<PetscInt> first{0}, columns;
+    first.reserve(3 * at(network_.owned) + 1);
+    columns.reserve(9 * (own_.column.size() + other_.column.size()));
+    for (int row = 0; row < network_.owned; ++row)
+      for (int r = 0; r < 3; ++r) {
+        const std::size_t begin = columns.size();
+        for (const BlockRows* rows : {&own_, &other_})
+          for (int i = rows->first[at(row)]; i < rows->first[at(row) + 1]; ++i)
+            for (int c = 0; c < 3; ++c) columns.push_back(3 * rows->column[at(i)] + c);
+        std::sort(columns.begin() + static_cast<std::ptrdiff_t>(begin), columns.end());
+        first.push_back(static_cast<PetscInt>(columns.size()));
+      }
+    check(MatSeqAIJSetPreallocationCSR(matrix, first.data(), columns.data(), nullptr));
+    check(MatMPIAIJSetPreallocationCSR(matrix, first.data(), columns.data(), nullptr));
+  }
+
+private:
+  /// Owned nodes and their free neighbours, themselves among them, of this rank or of others; by solver number.
+  template <class Visit>
+  void for_each_pair(bool own, const Visit& visit) const {
+    if (own)
+      for (int node = 0; node < network_.owned; ++node) visit(node, network_.number(node));
+    const auto join = [&](int row, int column) {
+      if (row < network_.owned && network_.is_free(column) && (column < network_.owned) == own)
+        visit(row, network_.number(column));
+    };
+    for (const auto& element : network_.elements) {
+      join(element.node[0], element.node[1]);
+      join(element.node[1], element.node[0]);
+    }
+  }
+
+  const partition::LocalNetwork& network_;
+  BlockRows own_, other_;
+  std::array<std::vector<bool>, 2> written_;
+};
+
+TangentMatrix::TangentMatrix(const partition::LocalNetwork& network, bool symmetric, MPI_Comm communicator) {
+  Pattern pattern(network);
+  const PetscInt rows = 3 * network.owned, all = 3 * network.free_nodes;
+  check(MatCreate(communicator, aij_.out()));
+  check(MatSetSizes(aij_, rows, rows, all, all));
+  check(MatSetBlockSize(aij_, 3));
+  check(MatSetType(aij_, MATAIJ));
+  pattern.preallocate(aij_);
+  check(MatSetOption(aij_, MAT_NEW_NONZERO_LOCATION_ERR, PETSC_TRUE));
+  if (symmetric) {
+    check(MatSetOption(aij_, MAT_SYMMETRIC, PETSC_TRUE));
+    check(MatSetOption(aij_, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
+  }
+  PetscBool distributed = PETSC_FALSE;
+  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(static_cast<Mat>(aij_)), MATMPIAIJ, &distributed));
+  parts_[0] = aij_;
+  if (distributed) check(MatMPIAIJGetSeqAIJ(aij_, &parts_[0], &parts_[1], nullptr));
+  for (const auto& [node, material, length] : network.elements) {
+    const auto [a, b] = node;
+    element_slots_.push_back({pattern.slot(a, a), pattern.slot(a, b), pattern.slot(b, a), pattern.slot(b, b)});
+  }
+  for (const auto& load : network.loads) load_slots_.push_back(pattern.slot(load.node, load.node));
+
+  std::array<char, 64> type{};
+  PetscBool chosen = PETSC_FALSE;
+  check(PetscOptionsGetString(nullptr, nullptr, "-mat_type", type.data(), type.size(), &chosen));
+  const std::string name = type.data();
+  if (chosen && name != MATAIJ && name != MATSEQAIJ && name != MATMPIAIJ)
+    check(MatConvert(aij_, name.c_str(), MAT_INITIAL_MATRIX, converted_.out()));
+}
+
+std::array<double*, 2> TangentMatrix::open() {
+  for (std::size_t i = 0; i < 2; ++i)
+    if (parts_[i] != nullptr) check(MatSeqAIJGetArrayWrite(parts_[i], &values_[i]));
+  return values_;
+}
+
+void TangentMatrix::close() {
+  for (std::size_t i = 0; i < 2; ++i)
+    if (parts_[i] != nullptr) check(MatSeqAIJRestoreArrayWrite(parts_[i], &values_[i]));
+}
+
+void TangentMatrix::publish() {
+  petsc::mark_changed(aij_);
+  if (converted_ == nullptr) return;
+  MatType type = nullptr;
+  check(MatGetType(converted_, &type));
+  check(MatConvert(aij_, type, MAT_REUSE_MATRIX, converted_.out()));
+}
+
+void TangentMatrix::set_identity(double s) {
+  check(MatZeroEntries(aij_));
+  check(MatShift(aij_, s));
+  publish();
+}
+
+}   // namespace cablenet::system
