@@ -38,12 +38,15 @@ class Run:
 class Verification:
     """Runs the program in the scratch folder and collects what fails."""
 
-    def __init__(self, description):
+    def __init__(self, description, *more_options):
+        """`more_options`: names of further options that must be given; `options` has them."""
         parser = argparse.ArgumentParser(description=description)
         parser.add_argument("--program", required=True)
         parser.add_argument("--scratch", required=True, type=pathlib.Path)
-        options = parser.parse_args()
-        self.program, self.scratch = options.program, options.scratch.resolve()
+        for name in more_options:
+            parser.add_argument(f"--{name}", required=True)
+        self.options = parser.parse_args()
+        self.program, self.scratch = self.options.program, self.options.scratch.resolve()
         shutil.rmtree(self.scratch, ignore_errors=True)
         self.scratch.mkdir(parents=True)
         self.checked, self.failed, self.started, self.runs = 0, [], time.monotonic(), 0
