@@ -1,0 +1,160 @@
+"""Runs of the programs, and what is read from them."""
+import csv
+import json
+import shutil
+import statistics
+import subprocess
+import time
+
+import yaml
+
+
+class RunFailed(Exception):
+    """A run that ended badly or took too long; its section's figure is left out."""
+
+
+class Samples:
+    """One quantity, measured several times."""
+
+    def __init__(self, values):
+        self.values = list(values)
+
+    @property
+    def least(self):
+        return min(self.values)
+
+    @property
+    def median(self):
+        return statistics.median(self.values)
+
+    @property
+    def spread(self):
+        return (max(self.values) - self.least) / self.least if self.least > 0 else float("nan")
+
+    def cells(self, digits=3):
+        return [number(self.least, digits), number(self.median, digits), f"{100 * self.spread:.0f} %"]
+
+
+def number(value, digits=3):
+    """Rounded to so many digits, without an exponent."""
+    if value != value:
+        return "-"
+    return f"{float(f'{value:.{digits}g}'):,.10g}"
+
+
+class Run:
+    """A finished run: what run.yaml says, and the wall time of the whole process."""
+
+    def __init__(self, report, wall, events, interface):
+        self.report, self.wall, self.events, self.interface = report, wall, events, interface
+
+    def clock(self, kind):
+        """Seconds by phase; `kind`: cpu, of the busiest rank, or wall."""
+        found = self.report.get(f"{kind}_seconds") or self.report["wall_seconds"]
+        return {phase: float(seconds) for phase, seconds in found.items()}
+
+    @property
+    def memory(self):
+        """Bytes at the peak, of all ranks."""
+        return float(self.report["peak_memory_MB"]["all_ranks"]) * 2**20
+
+
+class Stepping:
+    """A long run minus a short one: steps alone, without what is done once."""
+
+    def __init__(self, short, long):
+        self.short, self.long = short, long
+        self.steps = long.report["steps"] - short.report["steps"]
+        self.newton = long.report["newton_iterations"] - short.report["newton_iterations"]
+        self.unknowns = long.report["unknowns"]
+        if long.report["rejected_steps"]:
+            raise RunFailed(f"{long.report['rejected_steps']} steps were rejected, which is not what is to be timed")
+
+    def seconds(self, kind="cpu", phase="solve"):
+        return self.long.clock(kind)[phase] - self.short.clock(kind)[phase]
+
+    def per_step(self, kind="cpu"):
+        return self.seconds(kind) / self.steps
+
+    def per_unknown_iteration(self, seconds):
+        """In ns."""
+        return 1e9 * seconds / (self.newton * self.unknowns)
+
+    def events(self):
+        return {name: seconds - self.short.events.get(name, 0) for name, seconds in self.long.events.items()}
+
+
+def read_events(path):
+    """{event: seconds} of a -log_view table: the slowest rank's, all stages together."""
+    by_rank = {}
+    with open(path, encoding="utf-8", newline="") as file:
+        for row in csv.DictReader(file):
+            key = row["Event Name"].strip(), row["Rank"]
+            by_rank[key] = by_rank.get(key, 0) + float(row["Time"])
+    events = {}
+    for (name, _), seconds in by_rank.items():
+        events[name] = max(events.get(name, 0), seconds)
+    return events
+
+
+def interface_nodes(path):
+    """How many nodes the elements of several ranks share."""
+    import h5py
+    import numpy
+    with h5py.File(path) as file:
+        lines, ranks = file["mesh/lines"][:], numpy.ravel(file["mesh/rank"][:])
+    pairs = numpy.unique(numpy.column_stack([lines.ravel(), numpy.repeat(ranks, 2)]), axis=0)
+    return int((numpy.unique(pairs[:, 0], return_counts=True)[1] > 1).sum())
+
+
+class Laboratory:
+    """Where runs are made: a temporary folder, the programs, how often, how long."""
+
+    def __init__(self, program, yardstick, folder, repetitions, limit):
+        self.program, self.yardstick, self.folder = program, yardstick, folder
+        self.repetitions, self.limit = repetitions, limit
+
+    def execute(self, command):
+        """@return what it printed, and the wall time [s]"""
+        started = time.monotonic()
+        try:
+            done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, timeout=self.limit)
+        except subprocess.TimeoutExpired:
+            raise RunFailed(f"took more than {self.limit:.0f} s: {' '.join(command)}") from None
+        if done.returncode:
+            last = (done.stderr.strip() or done.stdout.strip()).splitlines()[-1:]
+            raise RunFailed(f"exit status {done.returncode}: {' '.join(command)}: {' '.join(last)}")
+        return done, time.monotonic() - started
+
+    def command(self, scene, *options):
+        """The scene is written, an older result removed."""
+        path, results = self.folder / "scene.yaml", self.folder / "results"
+        path.write_text(json.dumps(scene), encoding="utf-8")   # JSON is YAML
+        shutil.rmtree(results, ignore_errors=True)
+        return [str(self.program), "run", str(path), "-o", str(results), *map(str, options)]
+
+    def run(self, scene, *options, ranks=1, steps=None, events=False, interface=False):
+        """@param steps -ts_max_steps; events: with -log_view; interface: count shared nodes"""
+        log = self.folder / "events.csv"
+        more = [*options]
+        more += ["-ts_max_steps", steps] if steps else []
+        more += ["-log_view", f":{log}:ascii_csv"] if events else []
+        launcher = ["mpirun", "-n", str(ranks), "--oversubscribe"] if ranks > 1 else []
+        _, wall = self.execute([*launcher, *self.command(scene, *more)])
+        results = self.folder / "results"
+        report = yaml.safe_load((results / "run.yaml").read_text(encoding="utf-8"))
+        shared = interface_nodes(results / "mesh.h5") if interface else 0
+        return Run(report, wall, read_events(log) if events else {}, shared)
+
+    def stepping(self, scene, steps, *options, **keywords):
+        """`steps` steps after the first."""
+        return Stepping(*(self.run(scene, *options, steps=count, **keywords) for count in (1, 1 + steps)))
+
+    def chain(self, elements, step, steps, length):
+        """The yardstick's figures, by name."""
+        command = [str(self.yardstick), elements, step, steps, 0, length]
+        done, _ = self.execute(list(map(str, command)))
+        return dict(pair.split("=") for pair in done.stdout.split())
+
+    def repeat(self, measure, repetitions=None):
+        return [measure() for _ in range(repetitions or self.repetitions)]
