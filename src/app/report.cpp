@@ -38,6 +38,14 @@ void emit_partition(YAML::Emitter& yaml, const partition::Partition& partition) 
   yaml << YAML::Key << "elements" << YAML::Value << YAML::Flow << elements << YAML::EndMap;
 }
 
+void emit_seconds(YAML::Emitter& yaml, const char* key, const std::vector<Report::Phase>& phases,
+                  double Report::Phase::*clock) {
+  yaml << YAML::Key << key << YAML::Value << YAML::BeginMap;
+  for (const auto& phase : phases)
+    yaml << YAML::Key << phase.name << YAML::Value << fmt::format("{:.5g}", phase.*clock);
+  yaml << YAML::EndMap;
+}
+
 void emit_solution(YAML::Emitter& yaml, const Report& report) {
   yaml << YAML::Key << "scheme" << YAML::Value << report.scheme;
   yaml << YAML::Key << "linear_solver" << YAML::Value << report.linear_solver;
@@ -45,10 +53,8 @@ void emit_solution(YAML::Emitter& yaml, const Report& report) {
   yaml << YAML::Key << "rejected_steps" << YAML::Value << report.counts.rejected;
   yaml << YAML::Key << "newton_iterations" << YAML::Value << report.counts.newton;
   yaml << YAML::Key << "linear_iterations" << YAML::Value << report.counts.linear;
-  yaml << YAML::Key << "wall_seconds" << YAML::Value << YAML::BeginMap;
-  for (const auto& [phase, seconds] : report.seconds)
-    yaml << YAML::Key << phase << YAML::Value << fmt::format("{:.4g}", seconds);
-  yaml << YAML::EndMap;
+  emit_seconds(yaml, "wall_seconds", report.phases, &Report::Phase::wall);
+  emit_seconds(yaml, "cpu_seconds", report.phases, &Report::Phase::cpu);
 }
 
 void write_text(const std::filesystem::path& path, const std::string& text) {

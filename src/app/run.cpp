@@ -14,6 +14,7 @@
 #include "cablenet/app/command_line.hpp"
 #include "cablenet/app/simulation.hpp"
 #include "cablenet/base/errors.hpp"
+#include "cablenet/base/floating_point.hpp"
 #include "cablenet/network/build.hpp"
 #include "cablenet/petsc/session.hpp"
 #include "cablenet/scene/read.hpp"
@@ -103,6 +104,7 @@ int execute(const CommandLine& line) {
 }   // namespace
 
 int run(const std::string& program, const std::vector<std::string>& words) {
+  flush_denormals();
   std::optional<CommandLine> line;
   std::string problem;
   try {

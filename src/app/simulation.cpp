@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <petscts.h>
 
-#include <chrono>
+#include <ctime>
 #include <optional>
 
 #include "cablenet/app/progress.hpp"
@@ -17,20 +17,32 @@ namespace {
 
 using petsc::check;
 
-/// Wall time since construction or the last lap [s].
+/// Adds the time since construction or the last lap to a phase.
 class Stopwatch {
 public:
-  double lap() {
-    const auto now = Clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    return seconds;
+  void lap(Report::Phase& phase) {
+    const double wall = MPI_Wtime(), cpu = cpu_seconds();
+    phase.wall += wall - wall_;
+    phase.cpu += cpu - cpu_;
+    wall_ = wall;
+    cpu_ = cpu;
   }
 
 private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point last_ = Clock::now();
+  static double cpu_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+  }
+  double wall_ = MPI_Wtime();
+  double cpu_ = cpu_seconds();
 };
+
+/// The most computing of any rank.  Collective.
+Report::Phase slowest(Report::Phase phase) {
+  MPI_Allreduce(MPI_IN_PLACE, &phase.cpu, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
+  return phase;
+}
 
 std::string text_option(const char* name) {
   char value[64] = "";
@@ -100,7 +112,7 @@ public:
 
   int run() {
     open_output();
-    report_.seconds.emplace_back("set_up", watch_.lap());
+    watch_.lap(set_up_);
     Progress progress(scene_.time.start, scene_.time.end);
     const solve::Verdict verdict = dynamics_->run({
         [&](const solve::Instant& instant) { write(instant); },
@@ -135,7 +147,7 @@ private:
   }
 
   void write(const solve::Instant& instant) {
-    solving_ += watch_.lap();
+    watch_.lap(solving_);
     try {
       const system::LocalState& state = assembler_->observe(instant.t, instant.x, instant.v, instant.a);
       const std::vector<double>& row = probes_->row(state);
@@ -145,17 +157,17 @@ private:
       abort_output(error);
     }
     report_.reached = instant.t;
-    writing_ += watch_.lap();
+    watch_.lap(writing_);
   }
 
   void finish_output() {
-    solving_ += watch_.lap();
+    watch_.lap(solving_);
     try {
       series_->close();
     } catch (const OutputError& error) {
       abort_output(error);
     }
-    writing_ += watch_.lap();
+    watch_.lap(writing_);
   }
 
   /// One rank alone may be here, so the others are not waited for.
@@ -177,8 +189,7 @@ private:
     report_.scheme = scheme_name(time_, rule_);
     report_.linear_solver = dynamics_->linear_solver();
     report_.counts = dynamics_->counts();
-    report_.seconds.emplace_back("solve", solving_);
-    report_.seconds.emplace_back("output", writing_);
+    for (const auto& phase : {set_up_, solving_, writing_}) report_.phases.push_back(slowest(phase));
     write_report(directory_ / "run.yaml", scene_, network_, partition_, report_, PETSC_COMM_WORLD);
     if (rank_ == 0) fmt::print("results in {}: open cables.xmf in ParaView\n", directory_.string());
     if (verdict != solve::Verdict::failed) return 0;
@@ -208,8 +219,9 @@ private:
   std::optional<output::Series> series_;
   std::optional<output::History> history_;   ///< rank 0
   Report report_;
-  double solving_ = 0;
-  double writing_ = 0;
+  Report::Phase set_up_{"set_up"};
+  Report::Phase solving_{"solve"};
+  Report::Phase writing_{"output"};
 };
 
 }   // namespace

@@ -10,9 +10,11 @@ namespace {
 
 std::size_t at(std::int64_t index) { return static_cast<std::size_t>(index); }
 
-/// `first`: nothing has been added to the target yet.
-void apply_update(double* values, std::int64_t target, const double* a, const double* b) {
-  update_block(values + (target < 0 ? ~target : target), target < 0, a, b);
+/// Nodes of a chain: there are more streams through memory than processors foresee, so they are told.
+constexpr std::ptrdiff_t ahead = 20;
+
+void fetch(const double* values, int lines) {
+  for (std::ptrdiff_t i = 0; i < lines; ++i) __builtin_prefetch(values + 8 * i);
 }
 
 }   // namespace
@@ -22,16 +24,23 @@ Elimination::Elimination(Schedule schedule, const std::function<BlockSource(int,
   sources_.reserve(schedule_.touched.size());
   int most_later = 0;
   for (int k = 0; k < schedule_.eliminated(); ++k) {
-    sources_.push_back(where(k, k));
-    for (int i = schedule_.nodes[at(k)].first_later; i < schedule_.nodes[at(k) + 1].first_later; ++i) {
-      if (!schedule_.symmetric) sources_.push_back(where(k, schedule_.later[at(i)]));
-      sources_.push_back(where(schedule_.later[at(i)], k));
+    const int begin = schedule_.first_later[at(k)], end = schedule_.first_later[at(k) + 1];
+    add_source(where(k, k));
+    for (int i = begin; i < end; ++i) {
+      if (!schedule_.symmetric) add_source(where(k, schedule_.later[at(i)]));
+      add_source(where(schedule_.later[at(i)], k));
     }
-    most_later = std::max(most_later, schedule_.nodes[at(k) + 1].first_later - schedule_.nodes[at(k)].first_later);
+    most_later = std::max(most_later, end - begin);
   }
+  std::vector<bool>().swap(schedule_.touched);
   values_.resize(at(schedule_.values));
   column_.resize(9 * at(most_later));
   if (!schedule_.uniform) prepare_mixed();
+}
+
+void Elimination::add_source(BlockSource source) {
+  source.touched = schedule_.touched[sources_.size()];
+  sources_.push_back(source);
 }
 
 Pivots Elimination::factor(const Arrays& arrays) {
@@ -43,78 +52,77 @@ Pivots Elimination::factor(const Arrays& arrays) {
 template <bool symmetric>
 Pivots Elimination::factor_uniform(const Arrays& arrays) {
   Pivots pivots;
+  double* const values = values_.data();
+  double* pivot = values;
+  double* upper = symmetric ? column_.data() : values + schedule_.upper_values;
+  double* lower = values + schedule_.lower_values;
   const std::int64_t* target = schedule_.targets.data();
-  double* block = values_.data();
-  std::size_t number = 0;
-  const auto load = [&](double* to) {
-    load_block(to, sources_[number], schedule_.touched[number], arrays);
-    ++number;
-  };
-  for (int k = 0; k < schedule_.eliminated(); ++k) {
-    const int count = schedule_.nodes[at(k) + 1].first_later - schedule_.nodes[at(k)].first_later;
-    double* const pivot = block;
-    load(pivot);
+  const BlockSource* source = sources_.data();
+  for (int k = 0; k < schedule_.eliminated(); ++k, pivot += 9) {
+    const int count = schedule_.first_later[at(k) + 1] - schedule_.first_later[at(k)];
+    fetch(arrays[source->array] + source->offset + 27 * ahead, 4);
+    for (const double* to : {pivot, lower, upper}) fetch(to + 9 * ahead, 1);
+    load_block(pivot, *source++, arrays);
     const int negative = factor_block(pivot);
     if (negative < 0) return {k, pivots.negative, pivots.first_negative};
     if (negative > 0 && pivots.negative == 0) pivots.first_negative = k;
     pivots.negative += negative;
-    block += 9;
-    double* const rows = block;
-    for (int i = 0; i < count; ++i, block += 9) {
-      if constexpr (!symmetric) load(block), block += 9;
-      load(block);
-      if constexpr (symmetric) transpose_block(column_.data() + 9 * i, block);
-      divide_right(block, pivot);
+    for (int i = 0; i < count; ++i) {
+      if constexpr (!symmetric) load_block(upper + 9 * i, *source++, arrays);
+      load_block(lower + 9 * i, *source++, arrays);
+      if constexpr (symmetric) transpose_block(upper + 9 * i, lower + 9 * i);
+      divide_right(lower + 9 * i, pivot);
     }
     for (int i = 0; i < count; ++i)
-      for (int j = 0; j < (symmetric ? i + 1 : count); ++j)
-        if constexpr (symmetric)
-          apply_update(values_.data(), *target++, rows + 9 * i, column_.data() + 9 * j);
-        else
-          apply_update(values_.data(), *target++, rows + 18 * i + 9, rows + 18 * j);
+      for (int j = 0; j < (symmetric ? i + 1 : count); ++j, ++target)
+        update_block(values + (*target < 0 ? ~*target : *target), *target < 0, lower + 9 * i, upper + 9 * j);
+    lower += 9 * count;
+    if constexpr (!symmetric) upper += 9 * count;
   }
   return pivots;
 }
 
-template <bool symmetric>
-void Elimination::forward_uniform(double* w) {
-  const double* block = values_.data();
+void Elimination::forward_uniform(double* w, double* kept) {
+  double* const shifted = kept - 3 * std::ptrdiff_t{schedule_.eliminated()};
+  const double* lower = values_.data() + schedule_.lower_values;
+  const int* later = schedule_.later.data();
   for (int k = 0; k < schedule_.eliminated(); ++k) {
-    block += 9;
-    for (int i = schedule_.nodes[at(k)].first_later; i < schedule_.nodes[at(k) + 1].first_later; ++i, block += 9) {
-      if constexpr (!symmetric) block += 9;
-      subtract_product(w + 3 * schedule_.later[at(i)], block, w + 3 * k);
-    }
+    fetch(lower + 9 * ahead, 2);
+    for (int i = schedule_.first_later[at(k)]; i < schedule_.first_later[at(k) + 1]; ++i, ++later, lower += 9)
+      subtract_product((*later < schedule_.eliminated() ? w : shifted) + 3 * std::ptrdiff_t{*later}, lower,
+                       w + 3 * std::ptrdiff_t{k});
   }
 }
 
 template <bool symmetric>
-void Elimination::backward_uniform(double* w) {
-  constexpr int width = symmetric ? 9 : 18;
+void Elimination::backward_uniform(double* w, const double* kept) {
+  const double* const shifted = kept - 3 * std::ptrdiff_t{schedule_.eliminated()};
+  const double* const coupling = values_.data() + (symmetric ? schedule_.lower_values : schedule_.upper_values);
   for (int k = schedule_.eliminated() - 1; k >= 0; --k) {
-    const double* const pivot = values_.data() + schedule_.nodes[at(k)].values;
-    const double* block = pivot + 9;
-    double* const own = w + 3 * k;
+    const double* const pivot = values_.data() + 9 * std::ptrdiff_t{k};
+    double* const own = w + 3 * std::ptrdiff_t{k};
+    fetch(pivot - 9 * ahead, 2);
+    fetch(coupling + 9 * (schedule_.first_later[at(k)] - ahead), 2);
     if constexpr (symmetric) divide_left(own, pivot);
-    for (int i = schedule_.nodes[at(k)].first_later; i < schedule_.nodes[at(k) + 1].first_later; ++i, block += width) {
-      const double* later = w + 3 * schedule_.later[at(i)];
+    for (std::ptrdiff_t i = schedule_.first_later[at(k)]; i < schedule_.first_later[at(k) + 1]; ++i) {
+      const int j = schedule_.later[at(i)];
+      const double* const later = (j < schedule_.eliminated() ? w : shifted) + 3 * std::ptrdiff_t{j};
       if constexpr (symmetric)
-        subtract_transposed_product(own, block, later);
+        subtract_transposed_product(own, coupling + 9 * i, later);
       else
-        subtract_product(own, block, later);
+        subtract_product(own, coupling + 9 * i, later);
     }
     if constexpr (!symmetric) divide_left(own, pivot);
   }
 }
 
-void Elimination::forward(double* w) {
-  if (!schedule_.uniform) return forward_mixed(w);
-  schedule_.symmetric ? forward_uniform<true>(w) : forward_uniform<false>(w);
+void Elimination::forward(double* w, double* kept) {
+  schedule_.uniform ? forward_uniform(w, kept) : forward_mixed(w, kept);
 }
 
-void Elimination::backward(double* w) {
-  if (!schedule_.uniform) return backward_mixed(w);
-  schedule_.symmetric ? backward_uniform<true>(w) : backward_uniform<false>(w);
+void Elimination::backward(double* w, const double* kept) {
+  if (!schedule_.uniform) return backward_mixed(w, kept);
+  schedule_.symmetric ? backward_uniform<true>(w, kept) : backward_uniform<false>(w, kept);
 }
 
 }   // namespace cablenet::elimination

@@ -14,7 +14,7 @@ using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, largest
 using BlockMap = Eigen::Map<Block>;
 using ColumnMap = Eigen::Map<Column>;
 
-void load(BlockMap block, const BlockSource& source, bool touched, const Arrays& arrays) {
+void load(BlockMap block, const BlockSource& source, const Arrays& arrays) {
   if (source.absent) return;
   const double* from = arrays[source.array] + source.offset;
   const Eigen::Index down = source.transposed ? 1 : source.stride;
@@ -22,7 +22,7 @@ void load(BlockMap block, const BlockSource& source, bool touched, const Arrays&
   for (Eigen::Index r = 0; r < block.rows(); ++r)
     for (Eigen::Index c = 0; c < block.cols(); ++c) {
       const double value = from[r * down + c * right];
-      block(r, c) = touched ? block(r, c) + value : value;
+      block(r, c) = source.touched ? block(r, c) + value : value;
     }
 }
 
@@ -66,7 +66,11 @@ void divide_right(const BlockMap& lu, const int* exchanges, BlockMap rows) {
 
 void Elimination::prepare_mixed() {
   int unknown = 0;
-  for (const int size : schedule_.size) begin_.push_back(std::exchange(unknown, unknown + size));
+  for (std::size_t k = 0; k < schedule_.size.size(); ++k) {
+    if (k == at(schedule_.eliminated())) unknown = 0;
+    begin_.push_back(unknown);
+    unknown += schedule_.size[k];
+  }
   exchanges_.resize(largest_block * at(schedule_.eliminated()));
 }
 
@@ -75,24 +79,25 @@ Pivots Elimination::factor_mixed(const Arrays& arrays) {
   const std::int64_t* target = schedule_.targets.data();
   std::size_t number = 0;
   const auto load_next = [&](double* to, int rows, int columns) {
-    load({to, rows, columns}, sources_[number], schedule_.touched[number], arrays);
-    ++number;
+    load({to, rows, columns}, sources_[number++], arrays);
   };
   for (int k = 0; k < schedule_.eliminated(); ++k) {
-    const Schedule::Node& node = schedule_.nodes[at(k)];
     const int own = schedule_.size[at(k)];
+    double* const pivot = values_.data() + schedule_.pivot(k);
     int* const exchanges = exchanges_.data() + largest_block * k;
-    load_next(values_.data() + node.values, own, own);
-    const int sign = elimination::factor({values_.data() + node.values, own, own}, exchanges);
+    load_next(pivot, own, own);
+    const int sign = elimination::factor({pivot, own, own}, exchanges);
     if (sign == 0) return {k, pivots.negative, pivots.first_negative};
     if (sign < 0 && pivots.negative++ == 0) pivots.first_negative = k;
-    visit_later(k, [&](double* upper, double* lower, int size, int) {
+    visit_later(k, [&](double* upper, double* lower, int j) {
+      const int size = schedule_.size[at(j)];
       load_next(upper, own, size);
       load_next(lower, size, own);
-      divide_right({values_.data() + node.values, own, own}, exchanges, {lower, size, own});
+      divide_right({pivot, own, own}, exchanges, {lower, size, own});
     });
-    visit_later(k, [&](double*, double* lower, int rows, int) {
-      visit_later(k, [&](double* upper, double*, int columns, int) {
+    visit_later(k, [&](double*, double* lower, int i) {
+      visit_later(k, [&](double* upper, double*, int j) {
+        const int rows = schedule_.size[at(i)], columns = schedule_.size[at(j)];
         const bool first = *target < 0;
         BlockMap to(values_.data() + (first ? ~*target : *target), rows, columns);
         ++target;
@@ -106,33 +111,34 @@ Pivots Elimination::factor_mixed(const Arrays& arrays) {
 
 template <class Visit>
 void Elimination::visit_later(int k, Visit&& visit) {
-  const Schedule::Node& node = schedule_.nodes[at(k)];
-  const int own = schedule_.size[at(k)];
-  double* block = values_.data() + node.values + own * own;
-  for (int i = node.first_later; i < schedule_.nodes[at(k) + 1].first_later; ++i) {
-    const int size = schedule_.size[at(schedule_.later[at(i)])];
-    visit(block, block + own * size, size, begin_[at(schedule_.later[at(i)])]);
-    block += 2 * own * size;
+  for (int i = schedule_.first_later[at(k)]; i < schedule_.first_later[at(k) + 1]; ++i) {
+    double* const upper = values_.data() + schedule_.upper_values + schedule_.coupling(i);
+    double* const lower = values_.data() + schedule_.lower_values + schedule_.coupling(i);
+    visit(upper, lower, schedule_.later[at(i)]);
   }
 }
 
-void Elimination::forward_mixed(double* w) {
+void Elimination::forward_mixed(double* w, double* kept) {
   for (int k = 0; k < schedule_.eliminated(); ++k) {
     const int own = schedule_.size[at(k)];
-    visit_later(k, [&](double*, double* lower, int size, int begin) {
-      ColumnMap(w + begin, size) -= BlockMap(lower, size, own).lazyProduct(ColumnMap(w + begin_[at(k)], own));
+    visit_later(k, [&](double*, double* lower, int j) {
+      double* const to = (j < schedule_.eliminated() ? w : kept) + begin_[at(j)];
+      const int size = schedule_.size[at(j)];
+      ColumnMap(to, size) -= BlockMap(lower, size, own).lazyProduct(ColumnMap(w + begin_[at(k)], own));
     });
   }
 }
 
-void Elimination::backward_mixed(double* w) {
+void Elimination::backward_mixed(double* w, const double* kept) {
   for (int k = schedule_.eliminated() - 1; k >= 0; --k) {
     const int own = schedule_.size[at(k)];
     ColumnMap mine(w + begin_[at(k)], own);
-    visit_later(k, [&](double* upper, double*, int size, int begin) {
-      mine -= BlockMap(upper, own, size).lazyProduct(ColumnMap(w + begin, size));
+    visit_later(k, [&](double* upper, double*, int j) {
+      const double* const from = (j < schedule_.eliminated() ? w : kept) + begin_[at(j)];
+      const int size = schedule_.size[at(j)];
+      mine -= BlockMap(upper, own, size).lazyProduct(Eigen::Map<const Column>(from, size));
     });
-    solve({values_.data() + schedule_.nodes[at(k)].values, own, own}, exchanges_.data() + largest_block * k, mine);
+    solve({values_.data() + schedule_.pivot(k), own, own}, exchanges_.data() + largest_block * k, mine);
   }
 }
 

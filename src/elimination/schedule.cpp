@@ -26,7 +26,6 @@ public:
     if (!find_later_neighbours(most_updates)) return std::nullopt;
     place_values();
     for (int k = 0; k < pattern_.eliminated; ++k) place_updates(k);
-    plan_.nodes.back().first_target = static_cast<std::int64_t>(plan_.targets.size());
     return std::move(plan_);
   }
 
@@ -35,7 +34,12 @@ private:
   void collect(int k, std::vector<int>& found);
   void place_values();
   void place_updates(int k);
-  std::pair<std::int64_t, std::int64_t> find(int row, int column);
+  /// A block's place, and its number in the order of factoring; -1 if both are kept.
+  struct Found {
+    std::int64_t place, number;
+  };
+  Found find(int row, int column);
+  std::int64_t number(int k, int coupling) const { return k + std::int64_t{plan_.symmetric ? 1 : 2} * coupling; }
   std::int64_t kept_place(int row, int column);
 
   const Pattern& pattern_;
@@ -53,8 +57,7 @@ void Planner::collect(int k, std::vector<int>& found) {
   };
   for (int i = pattern_.first[at(k)]; i < pattern_.first[at(k) + 1]; ++i) add(pattern_.adjacent[at(i)]);
   for (int child = first_child_[at(k)]; child >= 0; child = next_sibling_[at(child)])
-    for (int i = plan_.nodes[at(child)].first_later; i < plan_.nodes[at(child) + 1].first_later; ++i)
-      add(plan_.later[at(i)]);
+    for (int i = plan_.first_later[at(child)]; i < plan_.first_later[at(child) + 1]; ++i) add(plan_.later[at(i)]);
   std::sort(found.begin(), found.end());
 }
 
@@ -63,14 +66,14 @@ bool Planner::find_later_neighbours(double most_updates) {
   first_child_.assign(count, -1);
   next_sibling_.assign(count, -1);
   seen_by_.assign(pattern_.size.size(), -1);
-  plan_.nodes.resize(count + 1);
+  plan_.first_later.assign(1, 0);
+  plan_.first_later.reserve(count + 1);
   plan_.later.reserve(count);
   std::vector<int> found;
   for (int k = 0; k < pattern_.eliminated; ++k) {
-    plan_.nodes[at(k)].first_later = static_cast<int>(plan_.later.size());
     collect(k, found);
     plan_.later.insert(plan_.later.end(), found.begin(), found.end());
-    plan_.nodes[at(k) + 1].first_later = static_cast<int>(plan_.later.size());
+    plan_.first_later.push_back(static_cast<int>(plan_.later.size()));
     const double m = static_cast<double>(found.size());
     plan_.updates += plan_.symmetric ? m * (m + 1) / 2 : m * m;
     if (plan_.updates > most_updates) return false;
@@ -82,20 +85,23 @@ bool Planner::find_later_neighbours(double most_updates) {
 }
 
 void Planner::place_values() {
-  std::int64_t place = 0, block = 0;
-  for (int k = 0; k < pattern_.eliminated; ++k) {
-    Schedule::Node& node = plan_.nodes[at(k)];
-    node.values = place;
-    node.first_block = block;
-    const int own = plan_.size[at(k)];
-    place += own * own;
-    for (int i = node.first_later; i < plan_.nodes[at(k) + 1].first_later; ++i)
-      place += (plan_.symmetric ? 1 : 2) * own * plan_.size[at(plan_.later[at(i)])];
-    block += 1 + (plan_.symmetric ? 1 : 2) * (plan_.nodes[at(k) + 1].first_later - node.first_later);
+  const std::int64_t blocks = pattern_.eliminated, couplings = static_cast<std::int64_t>(plan_.later.size());
+  std::int64_t pivots = 9 * blocks, one_side = 9 * couplings;
+  if (!plan_.uniform) {
+    pivots = one_side = 0;
+    for (int k = 0; k < pattern_.eliminated; ++k) {
+      plan_.mixed_pivots.push_back(pivots);
+      pivots += plan_.size[at(k)] * plan_.size[at(k)];
+      for (int i = plan_.first_later[at(k)]; i < plan_.first_later[at(k) + 1]; ++i) {
+        plan_.mixed_couplings.push_back(one_side);
+        one_side += plan_.size[at(k)] * plan_.size[at(plan_.later[at(i)])];
+      }
+    }
   }
-  plan_.nodes.back().values = plan_.kept_values = plan_.values = place;
-  plan_.nodes.back().first_block = block;
-  plan_.touched.assign(at(block), false);
+  plan_.upper_values = pivots;
+  plan_.lower_values = pivots + (plan_.symmetric ? 0 : one_side);
+  plan_.kept_values = plan_.values = plan_.lower_values + one_side;
+  plan_.touched.assign(at(number(pattern_.eliminated, static_cast<int>(couplings))), false);
 }
 
 std::int64_t Planner::kept_place(int row, int column) {
@@ -107,34 +113,26 @@ std::int64_t Planner::kept_place(int row, int column) {
   return found->second;
 }
 
-/// Where the block (row, column) stands, and its number among the eliminated ones' blocks; -1 if both are kept.
-std::pair<std::int64_t, std::int64_t> Planner::find(int row, int column) {
+Planner::Found Planner::find(int row, int column) {
   const int owner = std::min(row, column);
   if (owner >= pattern_.eliminated) return {kept_place(row, column), -1};
-  const Schedule::Node& node = plan_.nodes[at(owner)];
-  if (row == column) return {node.values, node.first_block};
-  const int own = plan_.size[at(owner)];
-  std::int64_t place = node.values + own * own;
-  std::int64_t block = node.first_block + 1;
-  const int sides = plan_.symmetric ? 1 : 2;
-  for (int i = node.first_later;; ++i, block += sides) {
-    const int j = plan_.later[at(i)];
-    const int area = own * plan_.size[at(j)];
-    if (j == std::max(row, column))
-      return plan_.symmetric || row < column ? std::pair(place, block) : std::pair(place + area, block + 1);
-    place += sides * area;
-  }
+  if (row == column) return {plan_.pivot(row), number(row, plan_.first_later[at(row)])};
+  const auto begin = plan_.later.begin() + plan_.first_later[at(owner)];
+  const auto end = plan_.later.begin() + plan_.first_later[at(owner) + 1];
+  const int i = static_cast<int>(std::lower_bound(begin, end, std::max(row, column)) - plan_.later.begin());
+  const std::int64_t first = number(owner, i) + 1;
+  if (row < column) return {plan_.upper_values + plan_.coupling(i), first};
+  return {plan_.lower_values + plan_.coupling(i), plan_.symmetric ? first : first + 1};
 }
 
 void Planner::place_updates(int k) {
-  plan_.nodes[at(k)].first_target = static_cast<std::int64_t>(plan_.targets.size());
-  const auto begin = plan_.later.begin() + plan_.nodes[at(k)].first_later;
-  const auto end = plan_.later.begin() + plan_.nodes[at(k) + 1].first_later;
+  const auto begin = plan_.later.begin() + plan_.first_later[at(k)];
+  const auto end = plan_.later.begin() + plan_.first_later[at(k) + 1];
   for (auto i = begin; i != end; ++i)
     for (auto j = begin; j != (plan_.symmetric ? i + 1 : end); ++j) {
-      const auto [place, block] = find(*i, *j);
-      const bool first = block >= 0 && !plan_.touched[at(block)];
-      if (first) plan_.touched[at(block)] = true;
+      const auto [place, number] = find(*i, *j);
+      const bool first = number >= 0 && !plan_.touched[at(number)];
+      if (first) plan_.touched[at(number)] = true;
       plan_.targets.push_back(first ? ~place : place);
     }
 }

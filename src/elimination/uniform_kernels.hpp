@@ -7,16 +7,26 @@
 /// Row-major 3x3 blocks.
 namespace cablenet::elimination {
 
-inline void load_block(double* block, const BlockSource& source, bool touched, const Arrays& arrays) {
+inline void load_row(double* row, const double* from, bool touched) {
+  row[0] = touched ? row[0] + from[0] : from[0];
+  row[1] = touched ? row[1] + from[1] : from[1];
+  row[2] = touched ? row[2] + from[2] : from[2];
+}
+
+inline void load_block(double* block, const BlockSource& source, const Arrays& arrays) {
   if (source.absent) return;
   const double* from = arrays[source.array] + source.offset;
-  const std::size_t down = source.transposed ? 1 : source.stride;
-  const std::size_t right = source.transposed ? source.stride : 1;
-  for (std::size_t r = 0; r < 3; ++r)
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double value = from[r * down + c * right];
-      block[3 * r + c] = touched ? block[3 * r + c] + value : value;
+  const std::size_t stride = source.stride;
+  if (source.transposed) {
+    for (std::size_t r = 0; r < 3; ++r) {
+      const double row[3] = {from[r], from[stride + r], from[2 * stride + r]};
+      load_row(block + 3 * r, row, source.touched);
     }
+    return;
+  }
+  load_row(block, from, source.touched);
+  load_row(block + 3, from + stride, source.touched);
+  load_row(block + 6, from + 2 * stride, source.touched);
 }
 
 /// In place L U with unit L; the reciprocals of the pivots stand on the diagonal.
@@ -62,10 +72,10 @@ inline void divide_left(double* w, const double* d) {
 
 /// target -= a b, or target = -a b where `first`.
 inline void update_block(double* target, bool first, const double* a, const double* b) {
-  for (int r = 0; r < 3; ++r)
+  for (int r = 0; r < 9; r += 3)
     for (int c = 0; c < 3; ++c) {
-      const double product = a[3 * r] * b[c] + a[3 * r + 1] * b[3 + c] + a[3 * r + 2] * b[6 + c];
-      target[3 * r + c] = first ? -product : target[3 * r + c] - product;
+      const double product = a[r] * b[c] + a[r + 1] * b[3 + c] + a[r + 2] * b[6 + c];
+      target[r + c] = (first ? 0 : target[r + c]) - product;
     }
 }
 

@@ -3,6 +3,7 @@
 #include <metis.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -40,8 +41,21 @@ public:
         pair(k, graph_.first[at(graph_.adjacent[at(k)])] + degree_[at(graph_.adjacent[at(k)])]++);
   }
 
+  /// Along two cables at a time, in turns: what is done for one does not wait for the other, so that a processor
+  /// overlaps the two.
   void peel_leaves() {
-    for (int v = 0; v < graph_.vertices(); ++v) peel_from(v);
+    std::array<int, 2> fronts{-1, -1};
+    int seed = 0;
+    bool going = true;
+    while (going) {
+      going = false;
+      for (int& front : fronts) {
+        while (!can_peel(front) && seed < graph_.vertices()) front = seed++;
+        if (!can_peel(front)) continue;
+        front = peel(front);
+        going = true;
+      }
+    }
   }
 
   void contract_paths() {
@@ -124,14 +138,19 @@ private:
     return -1;
   }
 
+  bool can_peel(int v) const { return v >= 0 && may_go(v, 1); }
+
+  /// @returns the vertex at which the leaf hung, or -1
+  int peel(int leaf) {
+    const int parent = beyond(leaf, -1);
+    eliminate(leaf);
+    return parent;
+  }
+
   /// @returns the vertex at which it ends, or -1
   int peel_from(int leaf) {
     int v = leaf;
-    while (v >= 0 && may_go(v, 1)) {
-      const int parent = beyond(v, -1);
-      eliminate(v);
-      v = parent;
-    }
+    while (can_peel(v)) v = peel(v);
     return v;
   }
 

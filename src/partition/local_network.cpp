@@ -72,6 +72,14 @@ private:
       const bool mine = partition_.element_owner[e] == rank_;
       if (owned > 0 || mine) (owned == 2 ? inner_ : mine ? rim_ : copies_).push_back(e);
     }
+    // In the order of their nodes, so that the loop over elements walks through memory.
+    std::stable_sort(inner_.begin(), inner_.end(),
+                     [this](std::size_t e, std::size_t f) { return first_node(e) < first_node(f); });
+  }
+
+  int first_node(std::size_t e) const {
+    const auto [a, b] = network_.elements[e].node;
+    return std::min(local_of_[at(a)], local_of_[at(b)]);
   }
 
   void add_ghosts() {

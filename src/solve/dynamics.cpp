@@ -80,6 +80,7 @@ void Dynamics::read_limits() {
   check(TSGetAdapt(stepper_, &adapt));
   check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(adapt), TSADAPTNONE, &fixed_steps));
   user_adapts_ = fixed_steps == PETSC_FALSE;
+  keeps_mean_acceleration_ = read_alpha_step(stepper_).alternates();
   PetscReal end = time_.end;
   check(TSGetTimeStep(stepper_, &time_.step));
   check(TSGetMaxTime(stepper_, &end));
@@ -133,7 +134,7 @@ Verdict Dynamics::run(const Observers& observers) {
 
 bool Dynamics::step(double dt) {
   const double t = schedule_.time();
-  check(VecCopy(x_, x0_));
+  if (!keeps_mean_acceleration_) check(VecCopy(x_, x0_));
   check(VecCopy(v_, v0_));
   assembler_.begin_step(t, x_, v_);
   if (schedule_.at_output()) check(VecNorm(x_, NORM_INFINITY, &furthest_));
@@ -177,7 +178,7 @@ void Dynamics::accept(double t, double taken, bool retried) {
 /// TSALPHA2 keeps its acceleration to itself, so it is computed again by the same formula.  At spectral radius 1 it
 /// alternates about the truth and the step's mean is reported instead.
 void Dynamics::update_acceleration(double dt) {
-  if (alpha_.alternates()) {
+  if (keeps_mean_acceleration_) {
     check(VecAXPBYPCZ(a_, 1 / dt, -1 / dt, 0, v_, v0_));
     return;
   }

@@ -71,8 +71,8 @@ bool InterfaceSystem::solve() {
   if (sum_[failures_] != 0) return false;
   if (new_matrix_) pivots_ = elimination_->factor({sum_.data(), nullptr, nullptr});
   if (pivots_.singular >= 0) return false;
-  elimination_->forward(sum_.data());
-  elimination_->backward(sum_.data());
+  elimination_->forward(sum_.data(), nullptr);
+  elimination_->backward(sum_.data(), nullptr);
   return true;
 }
 

@@ -70,7 +70,7 @@ private:
   std::unique_ptr<elimination::Elimination> elimination_;
   std::unique_ptr<InterfaceSystem> interface_;
   elimination::Pivots pivots_;
-  std::vector<double> w_;
+  std::vector<double> kept_values_;
 };
 
 elimination::Pattern NetworkPc::Impl::pattern() {
@@ -142,7 +142,7 @@ bool NetworkPc::Impl::plan(const partition::LocalNetwork& network, double most_p
   elimination_ =
       std::make_unique<elimination::Elimination>(std::move(*own), [this](int i, int j) { return source(i, j); });
   interface_ = std::make_unique<InterfaceSystem>(network.interface, std::move(*shared), communicator_);
-  w_.resize(3 * (at(interior_) + kept_.size()));
+  kept_values_.resize(3 * kept_.size());
   return true;
 }
 
@@ -164,7 +164,7 @@ void NetworkPc::Impl::add_to_interface(const double* b) {
   const auto add_right_side = [this](int node, const double* values) {
     for (std::size_t c = 0; c < 3; ++c) interface_->right_side(node)[c] += values[c];
   };
-  for (std::size_t i = 0; i < kept_.size(); ++i) add_right_side(kept_[i], w_.data() + 3 * (at(interior_) + i));
+  for (std::size_t i = 0; i < kept_.size(); ++i) add_right_side(kept_[i], kept_values_.data() + 3 * i);
   for (int row = interior_; row < blocks_.rows(); ++row)
     add_right_side(place_.at(blocks_.first() + row), b + 3 * std::ptrdiff_t{row});
   if (!new_matrix_) return;
@@ -185,21 +185,20 @@ void NetworkPc::Impl::add_to_interface(const double* b) {
 
 /// @returns false if the matrix is singular
 bool NetworkPc::Impl::solve(const double* b, double* x) {
-  const std::ptrdiff_t inside = 3 * std::ptrdiff_t{interior_};
   if (numbers_.empty() && pivots_.singular >= 0) return false;
-  std::fill(std::copy_n(b, inside, w_.begin()), w_.end(), 0.0);
-  if (pivots_.singular < 0) elimination_->forward(w_.data());
+  std::copy_n(b, 3 * std::ptrdiff_t{interior_}, x);
+  std::fill(kept_values_.begin(), kept_values_.end(), 0.0);
+  if (pivots_.singular < 0) elimination_->forward(x, kept_values_.data());
   if (!numbers_.empty()) {
     add_to_interface(b);
     if (!interface_->solve()) return false;
     new_matrix_ = false;
     for (std::size_t i = 0; i < kept_.size(); ++i)
-      std::copy_n(interface_->solution(kept_[i]), 3, w_.data() + inside + 3 * i);
+      std::copy_n(interface_->solution(kept_[i]), 3, kept_values_.data() + 3 * i);
     for (int row = interior_; row < blocks_.rows(); ++row)
       std::copy_n(interface_->solution(place_.at(blocks_.first() + row)), 3, x + 3 * std::ptrdiff_t{row});
   }
-  elimination_->backward(w_.data());
-  std::copy_n(w_.begin(), inside, x);
+  elimination_->backward(x, kept_values_.data());
   return true;
 }
 

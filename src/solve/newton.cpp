@@ -77,7 +77,7 @@ PetscErrorCode Dynamics::jacobian(TS, PetscReal, Vec x, Vec v, Vec, PetscReal sh
   PetscFunctionReturn(petsc::success);
 }
 
-/// x + dt v + dt^2/2 a.
+/// x + dt v + dt^2/2 a; the stepper's own vectors stay at the step's start until it is accepted.
 PetscErrorCode Dynamics::predict(SNES, Vec x, void* self) noexcept {
   PetscFunctionBeginUser;
   auto& run = *static_cast<Dynamics*>(self);
@@ -87,7 +87,7 @@ PetscErrorCode Dynamics::predict(SNES, Vec x, void* self) noexcept {
   const double dt = run.alpha_.dt;
   run.reuse_.begin_solve(run.alpha_.is_start() ? -dt : dt);
   if (run.alpha_.is_start()) PetscFunctionReturn(petsc::success);
-  PetscCall(VecWAXPY(x, dt, run.v0_, run.x0_));
+  PetscCall(VecWAXPY(x, dt, run.v_, run.x_));
   PetscCall(VecAXPY(x, dt * dt / 2, run.a_));
   PetscFunctionReturn(petsc::success);
 }

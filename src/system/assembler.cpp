@@ -1,7 +1,7 @@
 #include "cablenet/system/assembler.hpp"
 
 #include <algorithm>
-#include <tuple>
+#include <type_traits>
 
 #include "access.hpp"
 #include "cablenet/petsc/object_state.hpp"
@@ -111,18 +111,25 @@ void Assembler::begin_step(double t, Vec x, Vec v) {
     as_vector(here.v) = prescribed_[i].start.v;
   }
   ghosts_.end();
-  visit_law({}, [&](const auto& law) {
-    using Law = std::decay_t<decltype(law)>;
+  visit_law({}, [&](const auto& law) { record_starts(law, access); });
+}
+
+template <class Law>
+void Assembler::record_starts(const Law&, const Access& access) {
+  if constexpr (!std::is_same_v<typename Law::Start, NoStart>) {
     auto& starts = starts_->of<Law>(network_.elements.size());
-    const AnyNodes nodes{access.data};
-    for_each_element(network_, {0, static_cast<int>(network_.elements.size())},
-                     [&](std::size_t i, const partition::LocalElement& e) {
-                       starts[i] = Law::start(network_.materials[at(e.material)], e.length,
-                                              difference(nodes.x(e.node[1]), nodes.x(e.node[0])),
-                                              difference(nodes.v(e.node[1]), nodes.v(e.node[0])));
-                       return true;
-                     });
-  });
+    const auto record = [&](Range range, auto nodes) {
+      for_each_element(network_, range, [&](std::size_t i, const partition::LocalElement& e) {
+        const auto [n1, n2] = e.node;
+        Vector3 w = Vector3::Zero();
+        if constexpr (Law::general) w = difference(nodes.v(n2), nodes.v(n1));
+        starts[i] = Law::start(network_.materials[at(e.material)], e.length, difference(nodes.x(n2), nodes.x(n1)), w);
+        return true;
+      });
+    };
+    record({0, network_.inner_elements}, InnerNodes{access.data});
+    record({network_.inner_elements, static_cast<int>(network_.elements.size())}, AnyNodes{access.data});
+  }
 }
 
 /// Elements between owned nodes first: the ghosts' motion arrives meanwhile.

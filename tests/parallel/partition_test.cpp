@@ -172,6 +172,7 @@ TEST(PartitionLoops, AreCountedAmongFreeNodes) {
   EXPECT_EQ(loops(net), 5 * 3);
 }
 
+/// From both its ends in turns.
 TEST(PartitionNumbers, RunAlongAChain) {
   const network::Network network = network_of(chain);
   const partition::Partition partition = partition::make_partition(network, PETSC_COMM_WORLD);
@@ -180,7 +181,7 @@ TEST(PartitionNumbers, RunAlongAChain) {
   for (const auto& element : network.elements) {
     const int a = partition.solver_number[at(element.node[0])], b = partition.solver_number[at(element.node[1])];
     if (a < 0 || b < 0 || interface.contains(a) || interface.contains(b)) continue;
-    EXPECT_EQ(std::abs(a - b), 1);
+    EXPECT_LE(std::abs(a - b), 2);
     ++steps;
   }
   EXPECT_GT(steps, 10);

@@ -21,7 +21,13 @@ struct Report {
   std::string scheme;
   std::string linear_solver;
   solve::Counts counts;
-  std::vector<std::pair<std::string, double>> seconds;   ///< wall time by phase
+  /// Of a part of the run: [s] of wall time, and of this process's computing.
+  struct Phase {
+    std::string name;
+    double wall = 0;
+    double cpu = 0;
+  };
+  std::vector<Phase> phases;
 };
 
 /// 128-bit XXH3 of the scene's text, in hexadecimal.

@@ -15,14 +15,15 @@ namespace cablenet::elimination {
 /// Where a block's entries stand: row r begins at arrays[array] + offset + r * stride.
 struct BlockSource {
   int offset = 0;
-  unsigned stride : 28 = 0;
+  unsigned stride : 27 = 0;
   unsigned array : 2 = 0;
   unsigned absent : 1 = 1;   ///< fill: the matrix has no such block
   unsigned transposed : 1 = 0;
+  unsigned touched : 1 = 0;   ///< for Elimination's own use
 };
 
 inline BlockSource block_source(int offset, int stride, unsigned array) {
-  return {offset, static_cast<unsigned>(stride) & 0xfffffff, array & 3, 0, 0};
+  return {offset, static_cast<unsigned>(stride) & 0x7ffffff, array & 3, 0, 0, 0};
 }
 
 /// The arrays that sources refer to.
@@ -48,31 +49,30 @@ public:
   /// What factor() adds to a coupling of kept blocks, row-major.
   const double* update(const Schedule::Kept& kept) const { return values_.data() + kept.values; }
 
-  /// Eliminates from a right-hand side: w holds the eliminated blocks' and then the kept blocks' unknowns; what it adds
-  /// to the latter is the kept system's part.
-  void forward(double* w);
-  /// Turns w, the kept unknowns solved for, into the solution.
-  void backward(double* w);
+  /// Eliminates from a right-hand side of the eliminated blocks, in place; adds the kept system's part to `kept`.
+  void forward(double* w, double* kept);
+  /// Turns w into the solution, the kept blocks' being known.
+  void backward(double* w, const double* kept);
 
 private:
   template <bool symmetric>
   Pivots factor_uniform(const Arrays& arrays);
   void prepare_mixed();
   Pivots factor_mixed(const Arrays& arrays);
+  void forward_uniform(double* w, double* kept);
   template <bool symmetric>
-  void forward_uniform(double* w);
-  template <bool symmetric>
-  void backward_uniform(double* w);
-  /// visit(block (k, j), block (j, k), j's size, j's first unknown) for each later neighbour j
+  void backward_uniform(double* w, const double* kept);
+  void add_source(BlockSource source);
+  /// visit(block (k, j), block (j, k), j) for each later neighbour j
   template <class Visit>
   void visit_later(int k, Visit&& visit);
-  void forward_mixed(double* w);
-  void backward_mixed(double* w);
+  void forward_mixed(double* w, double* kept);
+  void backward_mixed(double* w, const double* kept);
 
   Schedule schedule_;
-  std::vector<BlockSource> sources_;   ///< block after block, as values_
+  std::vector<BlockSource> sources_;   ///< in the order of factoring
   std::vector<double> values_;
-  std::vector<int> begin_;       ///< mixed sizes: each block's first unknown
+  std::vector<int> begin_;       ///< mixed sizes: each block's first unknown, kept ones' from the first of them
   std::vector<int> exchanges_;   ///< mixed sizes: row exchanges of the pivots, largest_block per eliminated block
   std::vector<double> column_;   ///< symmetric: the blocks below a pivot before they are divided by it
 };

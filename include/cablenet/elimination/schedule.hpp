@@ -20,16 +20,11 @@ struct Pattern {
   std::vector<int> adjacent;
 };
 
-/// Values are kept block after block: of each eliminated block k its pivot (k, k), then for each later neighbour j the
-/// blocks (k, j) and (j, k), where symmetric (j, k) alone; behind them all couplings (i, j) of kept blocks that the
-/// elimination changes, where symmetric those with i >= j.  All are row-major.
+/// Values lie in four regions, so that each sweep of a solution reads one or two of them from end to end: the pivots
+/// (k, k), then for each coupling of a block k with a later neighbour j the blocks (k, j), unless symmetric, and (j,
+/// k), then the couplings (i, j) of kept blocks that the elimination changes, where symmetric those with i >= j.  All
+/// blocks are row-major.
 struct Schedule {
-  struct Node {
-    std::int64_t values;   ///< where its pivot stands
-    std::int64_t first_target;
-    std::int64_t first_block;
-    int first_later;
-  };
   /// A coupling of two kept blocks that the elimination changes.
   struct Kept {
     int row, column;
@@ -37,20 +32,28 @@ struct Schedule {
   };
 
   bool symmetric = false;
-  bool uniform = false;        ///< all blocks are 3x3
-  std::vector<int> size;       ///< as in the pattern
-  std::vector<Node> nodes;     ///< per eliminated block, and one past the last
-  std::vector<int> later;      ///< later neighbours, ascending
-  std::vector<bool> touched;   ///< per block of the eliminated ones' values: updates come before its own entries
+  bool uniform = false;           ///< all blocks are 3x3
+  std::vector<int> size;          ///< as in the pattern
+  std::vector<int> first_later;   ///< per eliminated block k, and one past the last: its couplings
+  std::vector<int> later;         ///< later neighbours, ascending, per coupling
+  /// Per block in the order of factoring, that is of each k its pivot and then of each coupling (k, j), unless
+  /// symmetric, and (j, k): updates come before its own entries.
+  std::vector<bool> touched;
   std::vector<Kept> kept;
   /// Per block k and pair (i, j) of its later neighbours, row after row (symmetric: j not after i): where the update of
   /// (i, j) goes; ~place where it is the first there.
   std::vector<std::int64_t> targets;
-  std::int64_t kept_values = 0;   ///< where the kept blocks' values begin
-  std::int64_t values = 0;        ///< in all
-  double updates = 0;             ///< block products in a factorisation
+  std::vector<std::int64_t> mixed_pivots, mixed_couplings;   ///< where they begin in their regions, if not uniform
+  std::int64_t upper_values = 0, lower_values = 0, kept_values = 0;   ///< where the regions begin
+  std::int64_t values = 0;                                            ///< in all
+  double updates = 0;                                                 ///< block products in a factorisation
 
-  int eliminated() const { return static_cast<int>(nodes.size()) - 1; }
+  int eliminated() const { return static_cast<int>(first_later.size()) - 1; }
+  std::int64_t pivot(int k) const { return uniform ? 9 * std::int64_t{k} : mixed_pivots[static_cast<std::size_t>(k)]; }
+  /// Of (k, j) in its region, as of (j, k) in its own.
+  std::int64_t coupling(int i) const {
+    return uniform ? 9 * std::int64_t{i} : mixed_couplings[static_cast<std::size_t>(i)];
+  }
 };
 
 /// @param symmetric  taken up where all blocks are 3x3

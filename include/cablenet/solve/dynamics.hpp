@@ -110,6 +110,7 @@ private:
   double last_step_ = 0;      ///< [s]
   int outside_domain_ = -1;   ///< scene number of an element that lost its length in the running step
   int attempts_ = 0;          ///< of the running step
+  bool keeps_mean_acceleration_ = false;
   bool user_adapts_ = false;
   bool user_line_search_ = false;
 };

@@ -69,6 +69,8 @@ private:
   template <class Visit>
   void visit_law(const Stage& stage, Visit&& visit) const;
   template <class Law>
+  void record_starts(const Law& law, const Access& access);
+  template <class Law>
   bool run(const Law& law, Access& access, const TangentRequest* request);
   template <class Law, bool with_residual, bool with_tangent>
   bool sweep(const Law& law, Access& access, const TangentRequest* request);
