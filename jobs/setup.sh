@@ -6,7 +6,7 @@ build=$root/build
 
 packages=(
   g++ cmake make pkg-config
-  libpetsc-real-dev libopenmpi-dev openmpi-bin libmetis-dev libhdf5-openmpi-dev
+  libpetsc-real-dev libopenblas0-serial libopenmpi-dev openmpi-bin libmetis-dev libhdf5-openmpi-dev
   libeigen3-dev libyaml-cpp-dev libcli11-dev libfmt-dev libginac-dev libmuparser-dev libgsl-dev libxxhash-dev
   libgtest-dev clang-format python3 python3-numpy python3-h5py python3-yaml
 )

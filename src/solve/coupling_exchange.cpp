@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "cablenet/petsc/phase.hpp"
+
 namespace cablenet::solve {
 namespace {
 
@@ -26,6 +28,7 @@ void CouplingExchange::settle() {
 }
 
 void CouplingExchange::run(const elimination::Arrays& arrays) {
+  const petsc::Timer timer(petsc::Phase::exchange);
   auto request = requests_.begin();
   double* to = received_.data();
   for (const auto& [rank, blocks] : receives_) {

@@ -12,7 +12,10 @@ namespace {
 
 /// Block products a node up to which the elimination is faster than MUMPS: nets of some 60 x 60 meshes
 /// (jobs/README.md).
-constexpr double default_limit = 100;
+constexpr double default_limit = 600;
+
+/// Block products a node from which factoring costs ten times a solution.
+constexpr double dear = 50;
 
 bool user_chose_preconditioner() {
   PetscBool found = PETSC_FALSE;
@@ -61,6 +64,7 @@ LinearSolver configure_linear_solver(KSP ksp, const partition::LocalNetwork& net
     const double limit = elimination_limit();
     solver.elimination = NetworkPc::make(network, matrix, limit);
     if (solver.elimination) {
+      solver.factors_are_dear = solver.elimination->updates_per_node() > dear;
       solver.elimination->attach(pc);
       solver.reason = fmt::format("{:.1f} block products a node", solver.elimination->updates_per_node());
     } else {

@@ -69,6 +69,7 @@ bool InterfaceSystem::solve() {
     MPI_Allreduce(MPI_IN_PLACE, sum_.data(), static_cast<int>(count), MPI_DOUBLE, MPI_SUM, communicator_);
   }
   if (sum_[failures_] != 0) return false;
+  const petsc::Timer timer(petsc::Phase::solve);
   if (new_matrix_) pivots_ = elimination_->factor({sum_.data(), nullptr, nullptr});
   if (pivots_.singular >= 0) return false;
   elimination_->forward(sum_.data(), nullptr);

@@ -1,6 +1,7 @@
 #include "cablenet/solve/network_pc.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <unordered_map>
 
@@ -148,11 +149,13 @@ bool NetworkPc::Impl::plan(const partition::LocalNetwork& network, double most_p
 
 PetscErrorCode NetworkPc::Impl::set_up(PC pc) {
   PetscFunctionBeginUser;
-  const petsc::Timer timer(petsc::Phase::factor);
   PetscCall(PCSetFailedReason(pc, PC_NOERROR));
   elimination::Arrays arrays = blocks_.values(exchange_.received());
   if (!symmetric_ && !numbers_.empty()) exchange_.run(arrays);
-  pivots_ = elimination_->factor(arrays);
+  {
+    const petsc::Timer timer(petsc::Phase::factor);
+    pivots_ = elimination_->factor(arrays);
+  }
   blocks_.release(arrays);
   new_matrix_ = true;
   PetscFunctionReturn(petsc::success);
@@ -186,12 +189,15 @@ void NetworkPc::Impl::add_to_interface(const double* b) {
 /// @returns false if the matrix is singular
 bool NetworkPc::Impl::solve(const double* b, double* x) {
   if (numbers_.empty() && pivots_.singular >= 0) return false;
+  std::optional<petsc::Timer> timer(petsc::Phase::solve);
   std::copy_n(b, 3 * std::ptrdiff_t{interior_}, x);
   std::fill(kept_values_.begin(), kept_values_.end(), 0.0);
   if (pivots_.singular < 0) elimination_->forward(x, kept_values_.data());
   if (!numbers_.empty()) {
     add_to_interface(b);
+    timer.reset();
     if (!interface_->solve()) return false;
+    timer.emplace(petsc::Phase::solve);
     new_matrix_ = false;
     for (std::size_t i = 0; i < kept_.size(); ++i)
       std::copy_n(interface_->solution(kept_[i]), 3, kept_values_.data() + 3 * i);
@@ -204,7 +210,6 @@ bool NetworkPc::Impl::solve(const double* b, double* x) {
 
 PetscErrorCode NetworkPc::Impl::apply(PC pc, Vec b, Vec x) {
   PetscFunctionBeginUser;
-  const petsc::Timer timer(petsc::Phase::solve);
   const double* from = nullptr;
   double* to = nullptr;
   PetscCall(VecGetArrayRead(b, &from));

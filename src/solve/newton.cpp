@@ -97,7 +97,7 @@ bool Dynamics::is_at_rounding(PetscInt iteration, double norm) {
   const bool is_retry = attempts_ > 1;
   const bool settled =
       convergence_.is_at_rounding(static_cast<int>(iteration), norm, noise, is_retry, reuse_.was_kept());
-  if (iteration > 0) reuse_.note_correction(convergence_.contraction());
+  if (iteration > 0) reuse_.note_correction(static_cast<int>(iteration), convergence_.contraction());
   return settled;
 }
 

@@ -11,7 +11,7 @@ namespace {
 using petsc::check;
 
 /// A residual that falls less than this by an old tangent pays for a new one.
-constexpr double slow = 0.2;
+constexpr double slow = 0.3;
 
 /// Steps that differ by rounding share a tangent.
 constexpr double same_key = 1e-6;
@@ -41,9 +41,9 @@ void TangentReuse::begin_solve(double key) {
   refresh();
 }
 
-void TangentReuse::note_correction(double contraction) {
+void TangentReuse::note_correction(int iteration, double contraction) {
   was_kept_ = !std::exchange(is_new_, false);
-  if (is_active_ && contraction > slow) refresh();
+  if (is_active_ && iteration > 1 && contraction > slow) refresh();
 }
 
 }   // namespace cablenet::solve

@@ -13,8 +13,9 @@ public:
 
   /// Before each Newton solve.  @param key  what else the tangent depends on, > 0: another asks for a new one
   void begin_solve(double key);
-  /// After a correction.  @param contraction  of the residual by it
-  void note_correction(double contraction);
+  /// After a correction.  The first one, from the guess, tells nothing of the tangent.
+  /// @param contraction  of the residual by it
+  void note_correction(int iteration, double contraction);
   void note_computed() { is_new_ = true; }
   /// The last correction used a tangent from before the one before it.
   bool was_kept() const { return was_kept_; }
