@@ -85,7 +85,7 @@ PetscErrorCode Dynamics::predict(SNES, Vec x, void* self) noexcept {
   run.evaluations_ = 0;
   run.tangent_at_ = -1;
   const double dt = run.alpha_.dt;
-  run.reuse_.begin_solve(run.alpha_.is_start() ? -dt : dt);
+  run.reuse_.begin_solve(run.alpha_.is_start() ? -dt : dt, run.attempts_ > 1);
   if (run.alpha_.is_start()) PetscFunctionReturn(petsc::success);
   PetscCall(VecWAXPY(x, dt, run.v_, run.x_));
   PetscCall(VecAXPY(x, dt * dt / 2, run.a_));

@@ -10,8 +10,14 @@ namespace {
 
 using petsc::check;
 
-/// A residual that falls less than this by an old tangent pays for a new one.
-constexpr double slow = 0.3;
+/// A tangent is kept if its first correction brings the residual down to this: Newton is then near its solution,
+constexpr double good = 0.02;
+
+/// and for as long as further ones bring it down to this.
+constexpr double worth = 0.2;
+
+/// Iterations that a solve by kept tangents may take.
+constexpr int patience = 10;
 
 /// Steps that differ by rounding share a tangent.
 constexpr double same_key = 1e-6;
@@ -35,15 +41,19 @@ TangentReuse::TangentReuse(SNES snes, bool worthwhile) : snes_(snes) {
 
 void TangentReuse::refresh() { check(SNESSetLagJacobian(snes_, once)); }
 
-void TangentReuse::begin_solve(double key) {
-  if (!is_active_ || std::abs(key - key_) <= same_key * key_) return;
+void TangentReuse::begin_solve(double key, bool careful) {
+  const bool same = std::abs(key - key_) <= same_key * key_;
+  const bool calm = std::exchange(is_calm_, true);
+  is_careful_ = careful;
   key_ = key;
-  refresh();
+  if (is_active_ && (careful || !same || !calm)) refresh();
 }
 
 void TangentReuse::note_correction(int iteration, double contraction) {
   was_kept_ = !std::exchange(is_new_, false);
-  if (is_active_ && iteration > 1 && contraction > slow) refresh();
+  if (contraction <= (was_kept_ ? worth : good) && iteration < patience && !is_careful_) return;
+  is_calm_ = false;
+  if (is_active_) refresh();
 }
 
 }   // namespace cablenet::solve

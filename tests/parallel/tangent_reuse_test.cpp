@@ -1,0 +1,105 @@
+#include "cablenet/solve/tangent_reuse.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../support/networks.hpp"
+#include "cablenet/solve/newton_convergence.hpp"
+
+using namespace cablenet;
+using namespace cablenet::test;
+
+namespace {
+
+class TangentReuse : public testing::Test {
+protected:
+  TangentReuse() { petsc::check(SNESCreate(PETSC_COMM_WORLD, snes_.out())); }
+
+  /// What SNES does before each correction: -2 asks for a new tangent once, -1 for none.
+  bool computes(solve::TangentReuse& reuse) {
+    PetscInt lag = 0;
+    petsc::check(SNESGetLagJacobian(snes_, &lag));
+    if (lag == -1) return false;
+    if (lag == -2) petsc::check(SNESSetLagJacobian(snes_, -1));
+    reuse.note_computed();
+    return true;
+  }
+  /// Which corrections of a solve used new tangents.
+  std::vector<bool> solve(solve::TangentReuse& reuse, double key, const std::vector<double>& contractions,
+                          bool careful = false) {
+    std::vector<bool> fresh;
+    reuse.begin_solve(key, careful);
+    for (std::size_t i = 0; i < contractions.size(); ++i) {
+      fresh.push_back(computes(reuse));
+      reuse.note_correction(static_cast<int>(i) + 1, contractions[i]);
+      EXPECT_EQ(reuse.was_kept(), !fresh.back());
+    }
+    return fresh;
+  }
+
+  petsc::Handle<SNES, SNESDestroy> snes_;
+};
+
+using Fresh = std::vector<bool>;
+
+}   // namespace
+
+TEST_F(TangentReuse, KeepsWhatServes) {
+  solve::TangentReuse reuse(snes_, true);
+  EXPECT_FALSE(reuse.computes_always());
+  EXPECT_EQ(solve(reuse, 0.1, {1e-3, 0.1, 0.1}), (Fresh{true, false, false}));
+  EXPECT_EQ(solve(reuse, 0.1, {1e-3, 0.1}), (Fresh{false, false})) << "over a step in which all served";
+  EXPECT_EQ(solve(reuse, 0.1 * (1 + 1e-12), {0.1, 0.1}), (Fresh{false, false})) << "a step that differs by rounding";
+}
+
+TEST_F(TangentReuse, RefreshesWhatDoesNot) {
+  solve::TangentReuse reuse(snes_, true);
+  EXPECT_EQ(solve(reuse, 0.1, {0.1, 1e-3, 0.5, 1e-3}), (Fresh{true, true, false, true})) << "slow corrections";
+  EXPECT_EQ(solve(reuse, 0.1, {1e-3}), (Fresh{true})) << "after a step with slow corrections";
+  EXPECT_EQ(solve(reuse, 0.05, {1e-3, 0.1}), (Fresh{true, false})) << "another step size";
+  EXPECT_EQ(solve(reuse, 0.05, {1e-3, 1e-3, 1e-3}, true), (Fresh{true, true, true})) << "a retry";
+  EXPECT_EQ(solve(reuse, 0.05, std::vector<double>(13, 0.01)).at(12), true) << "a solve without end";
+}
+
+TEST_F(TangentReuse, LeavesTheUsersLagAndCheapFactorsAlone) {
+  EXPECT_TRUE(solve::TangentReuse(snes_, false).computes_always());
+  const Option option("-snes_lag_jacobian", "3");
+  petsc::check(SNESSetFromOptions(snes_));
+  solve::TangentReuse reuse(snes_, true);
+  EXPECT_FALSE(reuse.computes_always());
+  reuse.begin_solve(0.1, true);
+  reuse.note_correction(1, 10);
+  PetscInt lag = 0;
+  petsc::check(SNESGetLagJacobian(snes_, &lag));
+  EXPECT_EQ(lag, 3);
+}
+
+namespace {
+
+constexpr double noise = 1e-9;
+
+/// The verdict on the last of these residuals.
+bool ends(const std::vector<double>& norms, bool kept, bool is_retry = false) {
+  solve::NewtonConvergence convergence;
+  bool verdict = false;
+  for (std::size_t i = 0; i < norms.size(); ++i) {
+    EXPECT_FALSE(verdict) << "before " << norms[i];
+    verdict = convergence.is_at_rounding(static_cast<int>(i), norms[i], noise, is_retry, kept && i > 1);
+  }
+  return verdict;
+}
+
+}   // namespace
+
+TEST(NewtonConvergence, EndsWhereItsErrorIsBelowRounding) {
+  EXPECT_TRUE(ends({1, 1e-4, 4e-10}, false)) << "quadratic: an error of 1e-12 is left";
+  EXPECT_FALSE(ends({1e-2, 1e-4, 4e-10}, false)) << "an error of 1e-8 is left, though it does not show";
+  EXPECT_FALSE(ends({1, 1e-2, 1e-3, 4e-10}, true)) << "linear: an error of 1e-4 is left";
+  EXPECT_TRUE(ends({1, 1e-2, 1e-4, 1e-6, 1e-8, 4e-10, 4e-12}, true));
+  EXPECT_FALSE(ends({1e-10}, false)) << "a guess is corrected at least once";
+}
+
+TEST(NewtonConvergence, EndsWhereNothingIsGained) {
+  EXPECT_TRUE(ends({1e-2, 1e-4, 6e-9, 5e-9}, false));
+  EXPECT_FALSE(ends({1e-2, 1e-4, 6e-8, 5e-8}, false));
+  EXPECT_TRUE(ends({1e-2, 6e-9}, false, true)) << "a retry's careful line search";
+}
