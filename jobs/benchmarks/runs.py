@@ -50,8 +50,7 @@ class Run:
 
     def clock(self, kind):
         """Seconds by phase; `kind`: cpu, of the busiest rank, or wall."""
-        found = self.report.get(f"{kind}_seconds") or self.report["wall_seconds"]
-        return {phase: float(seconds) for phase, seconds in found.items()}
+        return {phase: float(seconds) for phase, seconds in self.report[f"{kind}_seconds"].items()}
 
     @property
     def memory(self):
