@@ -84,11 +84,13 @@ private:
   /// @returns the cost of every vertex
   std::vector<int> try_cut(std::vector<int> part) {
     const std::vector<bool> interface = find_interface(graph_, part);
-    std::vector<int> cost = elimination_cost(graph_, interface);
+    std::vector<int> cost = step_cost(graph_, interface);
     std::vector<long> sums(at(parts_), 0);
     for (std::size_t v = 0; v < part.size(); ++v) sums[at(part[v])] += cost[v];
     const long largest = *std::max_element(sums.begin(), sums.end());
-    const std::pair<long, long> found{largest, std::count(interface.begin(), interface.end(), true)};
+    // Every rank solves for the interface.
+    const long shared = std::count(interface.begin(), interface.end(), true);
+    const std::pair<long, long> found{largest + usual_cost * shared, shared};
     if (found < lowest_) {
       lowest_ = found;
       imbalance_ =
@@ -102,7 +104,8 @@ private:
   int parts_;
   Cutter cutter_;
   std::vector<int> best_;
-  std::pair<long, long> lowest_{std::numeric_limits<long>::max(), 0};   ///< largest cost of a part, interface vertices
+  std::pair<long, long> lowest_{std::numeric_limits<long>::max(),
+                                0};   ///< cost of the busiest rank, interface vertices
   double imbalance_ = std::numeric_limits<double>::max();
 };
 
@@ -143,10 +146,10 @@ std::vector<bool> find_interface(const Graph& graph, const std::vector<int>& par
   return interface;
 }
 
-std::vector<int> elimination_cost(const Graph& graph, const std::vector<bool>& interface) {
+std::vector<int> step_cost(const Graph& graph, const std::vector<bool>& interface) {
   const std::vector<bool> stays = unpeeled(graph, interface);
   std::vector<int> cost(interface.size());
-  for (std::size_t v = 0; v < cost.size(); ++v) cost[v] = stays[v] && !interface[v] ? 2 : 1;
+  for (std::size_t v = 0; v < cost.size(); ++v) cost[v] = stays[v] && !interface[v] ? filled_cost : usual_cost;
   return cost;
 }
 

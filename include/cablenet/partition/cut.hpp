@@ -7,15 +7,19 @@
 /// Tests: tests/parallel/cut_test.cpp
 namespace cablenet::partition {
 
-/// The part of every vertex, so that the most expensive part costs little (elimination_cost).
+/// The part of every vertex, so that the most expensive part costs little (step_cost).
 /// With at least as many parts as vertices, some parts are empty and the others have one vertex each.
 std::vector<int> cut_network(const Graph& graph, int parts);
 
 /// Per vertex: does it belong to the interface?  A few vertices with an end of every edge that joins two parts.
 std::vector<bool> find_interface(const Graph& graph, const std::vector<int>& part);
 
-/// Per vertex: 1, or 2 where elimination fills in because there is interface, or a loop, on more than one side.
-std::vector<int> elimination_cost(const Graph& graph, const std::vector<bool>& interface);
+/// What a node costs in a step, relative to each other: elimination takes a quarter of it, and twice as long where it
+/// fills in.
+inline constexpr int usual_cost = 4, filled_cost = 5;
+
+/// Per vertex: usual_cost, or filled_cost where there is interface, or a loop, on more than one side.
+std::vector<int> step_cost(const Graph& graph, const std::vector<bool>& interface);
 
 /// What couples the interface's vertices, in ascending order, once all others are eliminated: their own edges, and
 /// all pairs at the same connected piece of the others.
