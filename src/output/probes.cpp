@@ -32,8 +32,16 @@ std::vector<bool> bare_ends(const network::Network& network) {
 Probes::Probes(const scene::Scene& scene, const network::Network& network, const system::Assembler& assembler)
     : assembler_(assembler), columns_{"time"}, energy_(scene.output.energy) {
   const partition::LocalNetwork& here = assembler.network();
-  const Places where{places(here.scene_node, at(here.nodes), network.position.size()),
-                     places(here.scene_element, at(here.own_elements), network.elements.size()), bare_ends(network)};
+  Places where{places(here.scene_node, at(here.nodes), network.position.size()),
+               places(here.scene_element, at(here.own_elements), network.elements.size()),
+               bare_ends(network),
+               {},
+               {}};
+  for (std::size_t i = 0; i < here.loads.size(); ++i) where.load[here.loads[i].node] = static_cast<int>(i);
+  for (int i = 0; i < here.own_elements; ++i)
+    for (int side = 0; side < 2; ++side)
+      if (const int node = here.elements[at(i)].node[at(side)]; !here.is_free(node))
+        where.ends[node].push_back({i, side});
   for (const auto& item : scene.output.history)
     item.kind == scene::HistoryKind::point ? add_point(scene, network, item.index, where)
                                            : add_cable(network, item.index, where);
@@ -51,12 +59,8 @@ void Probes::add_point(const scene::Scene& scene, const network::Network& networ
   probe.prescribed = point.motion.has_value();
   const int local = where.node[at(node)];
   if (local >= 0 && here.primary[at(local)]) probe.node = local;
-  for (std::size_t i = 0; i < here.loads.size(); ++i)
-    if (here.loads[i].node == probe.node && probe.node >= 0) probe.load = static_cast<int>(i);
-  if (probe.prescribed && local >= 0)
-    for (std::size_t i = 0; i < at(here.own_elements); ++i)
-      for (int side = 0; side < 2; ++side)
-        if (here.elements[i].node[at(side)] == local) probe.ends.push_back({static_cast<int>(i), side});
+  if (const auto load = where.load.find(probe.node); load != where.load.end()) probe.load = load->second;
+  if (const auto ends = where.ends.find(local); ends != where.ends.end()) probe.ends = ends->second;
   points_.push_back(probe);
   for (const char* name : {"x", "y", "z", "vx", "vy", "vz", "ax", "ay", "az"})
     columns_.push_back(point.name + "." + name);

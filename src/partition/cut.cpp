@@ -153,6 +153,13 @@ std::vector<int> step_cost(const Graph& graph, const std::vector<bool>& interfac
   return cost;
 }
 
+namespace {
+
+/// More than an elimination could ever be worth.
+constexpr double most_pairs = 1e8;
+
+}   // namespace
+
 Graph interface_graph(const Graph& graph, const std::vector<bool>& interface) {
   const std::vector<int> piece = connected_pieces(graph, interface);
   std::vector<int> index(interface.size(), -1), vertices;
@@ -170,6 +177,10 @@ Graph interface_graph(const Graph& graph, const std::vector<bool>& interface) {
       if (ring.empty() || ring.back() != i) ring.push_back(i);
     });
   }
+  const double pairs = std::accumulate(around.begin(), around.end(), 0.0, [](double sum, const auto& ring) {
+    return sum + static_cast<double>(ring.size()) * static_cast<double>(ring.size());
+  });
+  if (pairs > most_pairs) return {};
   std::vector<int> met(vertices.size(), -1), visited(around.size(), -1);
   Graph coupled;
   coupled.first.push_back(0);

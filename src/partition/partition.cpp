@@ -60,13 +60,14 @@ Cut make_cut(const Graph& graph, MPI_Comm communicator) {
   cut.part = rank == 0 ? cut_network(graph, ranks) : std::vector<int>(at(graph.vertices()));
   MPI_Bcast(cut.part.data(), graph.vertices(), MPI_INT, 0, communicator);
   cut.interface = find_interface(graph, cut.part);
-  const Graph coupled = interface_graph(graph, cut.interface);
-  const std::vector<int> order = elimination_order(coupled);
-  cut.coupled = subgraph(coupled, order);
-  std::vector<int> vertices;
   for (int v = 0; v < graph.vertices(); ++v)
-    if (cut.interface[at(v)]) vertices.push_back(v);
-  for (const int i : order) cut.order.push_back(vertices[at(i)]);
+    if (cut.interface[at(v)]) cut.order.push_back(v);
+  const Graph coupled = interface_graph(graph, cut.interface);
+  std::vector<int> order = elimination_order(coupled);
+  cut.coupled = subgraph(coupled, order);
+  if (order.empty()) return cut;
+  for (int& i : order) i = cut.order[at(i)];
+  cut.order = std::move(order);
   return cut;
 }
 
@@ -110,15 +111,11 @@ void assign_elements(const network::Network& network, Partition& partition) {
   // An element without free nodes goes to a rank that has rows, so that every rank with elements has a voice in norms.
   const auto first_rank = std::upper_bound(partition.first_number.begin(), partition.first_number.end(), 0);
   const int otherwise = static_cast<int>(first_rank - partition.first_number.begin()) - 1;
-  std::vector<int> degree(network.position.size(), 0);
-  for (const auto& element : network.elements)
-    for (const int node : element.node) ++degree[at(node)];
-  for (const auto& held : network.prescribed) degree[at(held.node)] = 0;
-  // All elements at a branching node on one rank: its forces are then summed in the same order on any number of ranks.
   partition.element_owner.reserve(network.elements.size());
   for (const auto& [node, material, length] : network.elements) {
-    const int busier = degree[at(node[1])] > degree[at(node[0])] ? node[1] : node[0];
-    partition.element_owner.push_back(degree[at(busier)] > 0 ? partition.node_owner[at(busier)] : otherwise);
+    const auto free_end =
+        std::find_if(node.begin(), node.end(), [&](int n) { return partition.solver_number[at(n)] >= 0; });
+    partition.element_owner.push_back(free_end == node.end() ? otherwise : partition.node_owner[at(*free_end)]);
   }
   std::vector<bool> taken(network.position.size(), false);
   for (std::size_t i = 0; i < network.elements.size(); ++i)
@@ -145,16 +142,12 @@ Partition make_partition(const network::Network& network, MPI_Comm communicator)
   Graph graph = node_graph(network, vertex, static_cast<int>(free_nodes.size()));
   vertex = {};
   Partition partition;
-  partition.loops = count_loops(graph);
   graph = simple_graph(graph);
   Cut cut = make_cut(graph, communicator);
   number_nodes(all_orders(order_part(graph, cut, rank), graph.vertices(), communicator), free_nodes, cut.part, ranks,
                network.position.size(), partition);
   partition.interface.graph = std::move(cut.coupled);
   for (const int v : cut.order) partition.interface.number.push_back(partition.solver_number[at(free_nodes[at(v)])]);
-  if (partition.loops <= few_loops)
-    for (const int v : elimination_order(graph))
-      partition.elimination.push_back(partition.solver_number[at(free_nodes[at(v)])]);
   assign_elements(network, partition);
   return partition;
 }

@@ -7,9 +7,10 @@
 
 namespace cablenet::petsc {
 
-PetscObjectState state_of(Vec vector) {
-  PetscObjectState state = 0;
-  check(PetscObjectStateGet(reinterpret_cast<PetscObject>(vector), &state));
+VectorState state_of(Vec vector) {
+  VectorState state;
+  check(PetscObjectGetId(reinterpret_cast<PetscObject>(vector), &state.vector));
+  check(PetscObjectStateGet(reinterpret_cast<PetscObject>(vector), &state.values));
   return state;
 }
 

@@ -13,7 +13,8 @@ namespace cablenet::solve {
 /// column.  A symmetric matrix does not need it.
 class CouplingExchange {
 public:
-  explicit CouplingExchange(MPI_Comm communicator) : communicator_(communicator) {}
+  /// @param tag  not in use by others on the communicator
+  CouplingExchange(MPI_Comm communicator, int tag) : communicator_(communicator), tag_(tag) {}
 
   /// Both are named by solver numbers; every block must be told to both ranks before the first run().
   void add_send(int rank, int row, int column, const elimination::BlockSource& source) {
@@ -31,8 +32,17 @@ public:
 private:
   using Blocks = std::map<std::pair<int, int>, elimination::BlockSource>;
 
+  /// A neighbour's share of a buffer.
+  struct Message {
+    int rank;
+    std::size_t begin, values;
+  };
+
   MPI_Comm communicator_;
+  int tag_;
   std::map<int, Blocks> sends_, receives_;
+  std::vector<elimination::BlockSource> sources_;   ///< of what is sent
+  std::vector<Message> to_, from_;
   std::vector<double> sent_, received_;
   std::vector<MPI_Request> requests_;
 };

@@ -17,10 +17,15 @@ constexpr double default_limit = 600;
 /// Block products a node from which factoring costs ten times a solution.
 constexpr double dear = 50;
 
-bool user_chose_preconditioner() {
+bool has_option(const char* name) {
   PetscBool found = PETSC_FALSE;
-  check(PetscOptionsHasName(nullptr, nullptr, "-pc_type", &found));
+  check(PetscOptionsHasName(nullptr, nullptr, name, &found));
   return found == PETSC_TRUE;
+}
+
+/// A shell would be kept by -snes_mf, too, which means to do without.
+bool user_chose_preconditioner() {
+  return has_option("-pc_type") || has_option("-pc_factor_mat_solver_type") || has_option("-snes_mf");
 }
 
 double elimination_limit() {
@@ -41,15 +46,11 @@ bool is_symmetric(Mat matrix) {
   return known == PETSC_TRUE && flag == PETSC_TRUE;
 }
 
-void use_mumps(KSP ksp, PC pc, Mat matrix) {
-  constexpr PetscInt ordering = 7, metis = 5;
-  Mat factors = nullptr;
-  check(KSPSetOperators(ksp, matrix, matrix));
+void use_mumps(PC pc, Mat matrix) {
+  constexpr auto ordering = "-mat_mumps_icntl_7", metis = "5";
   check(PCSetType(pc, is_symmetric(matrix) ? PCCHOLESKY : PCLU));
   check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-  check(PCFactorSetUpMatSolverType(pc));
-  check(PCFactorGetMatrix(pc, &factors));
-  check(MatMumpsSetIcntl(factors, ordering, metis));
+  if (!has_option(ordering)) check(PetscOptionsSetValue(nullptr, ordering, metis));
 }
 
 }   // namespace
@@ -68,7 +69,7 @@ LinearSolver configure_linear_solver(KSP ksp, const partition::LocalNetwork& net
       solver.elimination->attach(pc);
       solver.reason = fmt::format("{:.1f} block products a node", solver.elimination->updates_per_node());
     } else {
-      use_mumps(ksp, pc, matrix);
+      use_mumps(pc, matrix);
       solver.factors_are_dear = true;
       solver.reason = fmt::format("elimination would take more than {} block products a node", limit);
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cablenet/base/errors.hpp"
 #include "cablenet/solve/defaults.hpp"
@@ -18,6 +19,9 @@ constexpr double smallest_step = 1e-10;
 
 /// Newton's tolerance over the forces at the start.
 constexpr double relative_force_tolerance = 1e-12;
+
+/// How often the largest coordinate, which rounding depends on, is looked up.
+constexpr long steps_between_norms = 64;
 
 bool has_option(const char* name) {
   PetscBool found = PETSC_FALSE;
@@ -71,6 +75,17 @@ void Dynamics::configure_solvers() {
   linear_ = configure_linear_solver(ksp_, assembler_.network(), tangent_.matrix());
   check(TSSetFromOptions(stepper_));
   reuse_ = TangentReuse(snes_, linear_.factors_are_dear);
+  combines_ = reuse_.computes_always() && follows_residuals_by_tangents();
+}
+
+/// Newton with a basic line search does; other methods evaluate residuals elsewhere while they use the tangent.
+bool Dynamics::follows_residuals_by_tangents() const {
+  SNESLineSearch search = nullptr;
+  PetscBool newton = PETSC_FALSE, basic = PETSC_FALSE;
+  check(SNESGetLineSearch(snes_, &search));
+  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(snes_), SNESNEWTONLS, &newton));
+  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(search), SNESLINESEARCHBASIC, &basic));
+  return newton && basic && !has_option("-snes_mf") && !has_option("-snes_mf_operator");
 }
 
 /// What the user's options made of the scene's times.
@@ -137,7 +152,7 @@ bool Dynamics::step(double dt) {
   if (!keeps_mean_acceleration_) check(VecCopy(x_, x0_));
   check(VecCopy(v_, v0_));
   assembler_.begin_step(t, x_, v_);
-  if (schedule_.at_output()) check(VecNorm(x_, NORM_INFINITY, &furthest_));
+  if (schedule_.at_output() || counts_.steps % steps_between_norms == 0) check(VecNorm(x_, NORM_INFINITY, &furthest_));
   check(TSSetTime(stepper_, t));
   check(TSSetTimeStep(stepper_, dt));
   attempts_ = 0;

@@ -56,8 +56,8 @@ void InterfaceSystem::clear(bool new_matrix) {
   std::fill(sum_.begin(), new_matrix ? sum_.end() : sum_.begin() + static_cast<std::ptrdiff_t>(failures_) + 1, 0.0);
 }
 
-void InterfaceSystem::add(int row, int column, const double* values, std::size_t stride, bool transposed) {
-  double* to = sum_.data() + block(row, column);
+void InterfaceSystem::add(std::size_t block, const double* values, std::size_t stride, bool transposed) {
+  double* to = sum_.data() + block;
   for (std::size_t r = 0; r < 3; ++r)
     for (std::size_t c = 0; c < 3; ++c) to[3 * r + c] += transposed ? values[c * stride + r] : values[r * stride + c];
 }

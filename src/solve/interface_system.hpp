@@ -20,8 +20,10 @@ public:
 
   /// Starts a sum.  @param new_matrix  the matrix is summed too; else it is the last one
   void clear(bool new_matrix);
-  /// block (row, column) += values, by rows of `stride`, or their transpose.  @pre clear(true)
-  void add(int row, int column, const double* values, std::size_t stride, bool transposed);
+  /// Where block (row, column) stands, for add().
+  std::size_t block(int row, int column) const;
+  /// block += values, by rows of `stride`, or their transpose.  @pre clear(true)
+  void add(std::size_t block, const double* values, std::size_t stride, bool transposed);
   double* right_side(int node) { return sum_.data() + 3 * static_cast<std::size_t>(node); }
   void add_failure() { sum_[failures_] += 1; }
   /// Collective.  @returns false if a rank has failed or the matrix is singular
@@ -30,8 +32,6 @@ public:
   const elimination::Pivots& pivots() const { return pivots_; }
 
 private:
-  std::size_t block(int row, int column) const;
-
   MPI_Comm communicator_;
   partition::Graph rows_;     ///< each row's columns, itself included, ascending
   std::vector<double> sum_;   ///< right side, failures, matrix blocks

@@ -1,5 +1,7 @@
 #include "matrix_blocks.hpp"
 
+#include <algorithm>
+
 #include "cablenet/petsc/handle.hpp"
 
 namespace cablenet::solve {
@@ -31,11 +33,17 @@ MatrixBlocks::~MatrixBlocks() {
 }
 
 elimination::BlockSource MatrixBlocks::find(int row, int column) const {
-  elimination::BlockSource found;
-  for_each(row, [&](int candidate, const elimination::BlockSource& source) {
-    if (candidate == column) found = source;
-  });
-  return found;
+  const unsigned index = is_own(column) ? 0 : 1;
+  const Part& part = parts_[index];
+  if (part.matrix == nullptr) return {};
+  const PetscInt* const begin = part.column + part.row[3 * row];
+  const PetscInt* const end = part.column + part.row[3 * row + 1];
+  const auto name = [&](PetscInt local) { return index == 0 ? local + 3 * first_ : names_[local]; };
+  const PetscInt wanted = 3 * column;
+  const PetscInt* found =
+      std::lower_bound(begin, end, wanted, [&](PetscInt local, PetscInt w) { return name(local) < w; });
+  if (found == end || name(*found) != wanted) return {};
+  return elimination::block_source(static_cast<int>(found - part.column), static_cast<int>(end - begin), index);
 }
 
 elimination::Arrays MatrixBlocks::values(const double* exchanged) const {

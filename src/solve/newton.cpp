@@ -39,8 +39,8 @@ PetscErrorCode Dynamics::residual(TS, PetscReal, Vec x, Vec v, Vec a, Vec r, voi
     PetscCall(VecWAXPY(r, -start_factor, run.start_acceleration_, a));
     PetscFunctionReturn(petsc::success);
   }
-  // Newton asks for the tangent after each residual but the last: both in one pass where that is not expected.
-  const bool wants_tangent = run.reuse_.computes_always() && run.evaluations_++ < run.expected_newton_;
+  // Newton asks for the tangent after each residual but the last: both in one pass where another is expected.
+  const bool wants_tangent = run.combines_ && run.attempts_ <= 1 && run.evaluations_++ < run.expected_newton_;
   const system::TangentRequest request = run.tangent_request();
   if (wants_tangent) run.tangent_at_ = petsc::state_of(x);
   if (!run.assembler_.residual(run.stage(), x, v, a, r, wants_tangent ? &request : nullptr)) {
@@ -69,7 +69,7 @@ PetscErrorCode Dynamics::jacobian(TS, PetscReal, Vec x, Vec v, Vec, PetscReal sh
       run.assembler_.tangent(run.stage(), x, v, {run.tangent_, shift_v, shift_a});
     run.tangent_.publish();
   }
-  run.tangent_at_ = -1;
+  run.tangent_at_ = {};
   if (J != P) {
     PetscCall(MatAssemblyBegin(J, MAT_FINAL_ASSEMBLY));
     PetscCall(MatAssemblyEnd(J, MAT_FINAL_ASSEMBLY));
@@ -83,7 +83,7 @@ PetscErrorCode Dynamics::predict(SNES, Vec x, void* self) noexcept {
   auto& run = *static_cast<Dynamics*>(self);
   run.alpha_ = read_alpha_step(run.stepper_);
   run.evaluations_ = 0;
-  run.tangent_at_ = -1;
+  run.tangent_at_ = {};
   const double dt = run.alpha_.dt;
   run.reuse_.begin_solve(run.alpha_.is_start() ? -dt : dt, run.attempts_ > 1);
   if (run.alpha_.is_start()) PetscFunctionReturn(petsc::success);

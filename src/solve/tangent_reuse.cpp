@@ -28,14 +28,14 @@ constexpr PetscInt once = -2;
 }   // namespace
 
 TangentReuse::TangentReuse(SNES snes, bool worthwhile) : snes_(snes) {
-  PetscBool chosen = PETSC_FALSE;
-  check(PetscOptionsHasName(nullptr, nullptr, "-snes_lag_jacobian", &chosen));
-  is_active_ = worthwhile && chosen == PETSC_FALSE;
+  PetscBool lag_chosen = PETSC_FALSE, persistence_chosen = PETSC_FALSE;
+  check(PetscOptionsHasName(nullptr, nullptr, "-snes_lag_jacobian", &lag_chosen));
+  check(PetscOptionsHasName(nullptr, nullptr, "-snes_lag_jacobian_persists", &persistence_chosen));
+  is_active_ = worthwhile && lag_chosen == PETSC_FALSE && persistence_chosen == PETSC_FALSE;
   PetscInt lag = 1;
   check(SNESGetLagJacobian(snes_, &lag));
   computes_always_ = lag == 1 && !is_active_;
   if (!is_active_) return;
-  check(SNESSetLagJacobianPersists(snes_, PETSC_TRUE));
   refresh();
 }
 
@@ -50,8 +50,8 @@ void TangentReuse::begin_solve(double key, bool careful) {
 }
 
 void TangentReuse::note_correction(int iteration, double contraction) {
-  was_kept_ = !std::exchange(is_new_, false);
-  if (contraction <= (was_kept_ ? worth : good) && iteration < patience && !is_careful_) return;
+  const bool kept = !std::exchange(is_new_, false);
+  if (contraction <= (kept ? worth : good) && iteration < patience && !is_careful_) return;
   is_calm_ = false;
   if (is_active_) refresh();
 }

@@ -102,7 +102,7 @@ void Assembler::visit_law(const Stage& stage, Visit&& visit) const {
 
 void Assembler::begin_step(double t, Vec x, Vec v) {
   Access access(*this, x, v, nullptr, nullptr);
-  evaluated_ = -1;
+  evaluated_ = {};
   ghosts_.begin(access.data.x, access.data.v, nullptr, outside_.data());
   start_prescribed(t);
   for (std::size_t i = 0; i < prescribed_.size(); ++i) {
@@ -185,6 +185,7 @@ void Assembler::add_loads(Access& access, const TangentRequest* request) {
 bool Assembler::residual(const Stage& stage, Vec x, Vec v, Vec a, Vec r, const TangentRequest* request) {
   coincident_ = -1;
   evaluated_ = petsc::state_of(x);
+  evaluated_stage_ = stage;
   Access access(*this, x, v, a, r);
   access.begin_exchange();
   set_prescribed(stage);
@@ -196,10 +197,11 @@ bool Assembler::residual(const Stage& stage, Vec x, Vec v, Vec a, Vec r, const T
 
 void Assembler::tangent(const Stage& stage, Vec x, Vec v, const TangentRequest& request) {
   Access access(*this, x, v, nullptr, nullptr);
-  if (petsc::state_of(x) != evaluated_) {
+  if (petsc::state_of(x) != evaluated_ || stage != evaluated_stage_) {
     access.begin_exchange();
     set_prescribed(stage);
     evaluated_ = petsc::state_of(x);
+    evaluated_stage_ = stage;
   }
   visit_law(stage, [&](const auto& law) { run(law, access, &request); });
   add_loads(access, &request);
@@ -215,7 +217,7 @@ void Assembler::mass_matrix(TangentMatrix& mass) {
 
 void Assembler::force(double t, Vec x, Vec v, Vec force) {
   const Vector resting = make_vector();
-  evaluated_ = -1;
+  evaluated_ = {};
   Access access(*this, x, v, resting, force);
   access.begin_exchange();
   start_prescribed(t);

@@ -22,7 +22,7 @@ const LocalState& Assembler::observe(double t, Vec x, Vec v, Vec a) {
   state_.t = t;
   for (auto* field : {&state_.x, &state_.v, &state_.a}) field->resize(3 * at(network_.nodes));
   Access access(*this, x, v, a, nullptr);
-  evaluated_ = -1;
+  evaluated_ = {};
   access.begin_exchange();
   const std::ptrdiff_t values = 3 * std::ptrdiff_t{network_.owned};
   std::copy_n(access.data.x, values, state_.x.begin());

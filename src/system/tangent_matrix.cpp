@@ -1,8 +1,14 @@
 #include "cablenet/system/tangent_matrix.hpp"
 
-#include <algorithm>
-#include <numeric>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+
+#include "cablenet/base/errors.hpp"
 #include "cablenet/petsc/object_state.hpp"
 
 namespace cablenet::system {
@@ -45,6 +51,21 @@ BlockRows block_rows(int rows, const Each& each) {
   }
   result.column.resize(at(result.first.back()));
   return result;
+}
+
+/// An element has four blocks of 9 values, a node at most one more.
+/// @throws InputError on every rank alike where a rank's matrix would be longer than 32 bits can count.
+void check_size(const partition::LocalNetwork& network, MPI_Comm communicator) {
+  constexpr double most = std::numeric_limits<int>::max();
+  double values = 9.0 * (2.0 * static_cast<double>(network.elements.size()) + network.owned);
+  int ranks = 1;
+  MPI_Comm_size(communicator, &ranks);
+  MPI_Allreduce(MPI_IN_PLACE, &values, 1, MPI_DOUBLE, MPI_MAX, communicator);
+  if (values > most)
+    throw InputError(
+        fmt::format("the network is too large for {} rank{}: the matrix would have up to {:.2g} values on one, "
+                    "and 32 bits count to {:.2g}; use at least {} ranks",
+                    ranks, ranks == 1 ? "" : "s", values, most, std::ceil(1.1 * ranks * values / most)));
 }
 
 }   // namespace
@@ -115,6 +136,7 @@ private:
 };
 
 TangentMatrix::TangentMatrix(const partition::LocalNetwork& network, bool symmetric, MPI_Comm communicator) {
+  check_size(network, communicator);
   Pattern pattern(network);
   const PetscInt rows = 3 * network.owned, all = 3 * network.free_nodes;
   check(MatCreate(communicator, aij_.out()));
@@ -161,7 +183,11 @@ void TangentMatrix::publish() {
   if (converted_ == nullptr) return;
   MatType type = nullptr;
   check(MatGetType(converted_, &type));
-  check(MatConvert(aij_, type, MAT_REUSE_MATRIX, converted_.out()));
+  // Variants of AIJ are made anew by a conversion, and would lose what solvers hold.
+  if (std::string(type).find("aij") != std::string::npos && std::string(type).find("baij") == std::string::npos)
+    check(MatCopy(aij_, converted_, SAME_NONZERO_PATTERN));
+  else
+    check(MatConvert(aij_, type, MAT_REUSE_MATRIX, converted_.out()));
 }
 
 void TangentMatrix::set_identity(double s) {

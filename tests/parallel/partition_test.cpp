@@ -160,18 +160,6 @@ nets:
 
 INSTANTIATE_TEST_SUITE_P(TwoNets, Partition, testing::Values(NamedScene{"two_nets", two_nets}));
 
-TEST(PartitionLoops, AreCountedAmongFreeNodes) {
-  const auto loops = [](const std::string& text) {
-    return partition::make_partition(network_of(text), PETSC_COMM_WORLD).loops;
-  };
-  EXPECT_EQ(loops(chain), 0);
-  EXPECT_EQ(loops(array), 0);
-  EXPECT_EQ(loops(two_cables), 0);
-  EXPECT_EQ(loops(no_edges), 0);
-  EXPECT_EQ(loops(doubled), 1);
-  EXPECT_EQ(loops(net), 5 * 3);
-}
-
 /// From both its ends in turns.
 TEST(PartitionNumbers, RunAlongAChain) {
   const network::Network network = network_of(chain);

@@ -30,8 +30,8 @@ protected:
     reuse.begin_solve(key, careful);
     for (std::size_t i = 0; i < contractions.size(); ++i) {
       fresh.push_back(computes(reuse));
-      reuse.note_correction(static_cast<int>(i) + 1, contractions[i]);
       EXPECT_EQ(reuse.was_kept(), !fresh.back());
+      reuse.note_correction(static_cast<int>(i) + 1, contractions[i]);
     }
     return fresh;
   }
@@ -57,6 +57,8 @@ TEST_F(TangentReuse, RefreshesWhatDoesNot) {
   EXPECT_EQ(solve(reuse, 0.1, {1e-3}), (Fresh{true})) << "after a step with slow corrections";
   EXPECT_EQ(solve(reuse, 0.05, {1e-3, 0.1}), (Fresh{true, false})) << "another step size";
   EXPECT_EQ(solve(reuse, 0.05, {1e-3, 1e-3, 1e-3}, true), (Fresh{true, true, true})) << "a retry";
+  EXPECT_EQ(solve(reuse, -0.05, {1e-3, 0.1}), (Fresh{true, false})) << "the start phase";
+  EXPECT_EQ(solve(reuse, -0.05, {1e-3}), (Fresh{true})) << "once more";
   EXPECT_EQ(solve(reuse, 0.05, std::vector<double>(13, 0.01)).at(12), true) << "a solve without end";
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-#include <memory>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "cablenet/network/network.hpp"
@@ -48,6 +48,8 @@ private:
     std::vector<int> node;
     std::vector<int> element;
     std::vector<bool> bare_end;
+    std::unordered_map<int, int> load;                       ///< by local node
+    std::unordered_map<int, std::vector<ElementEnd>> ends;   ///< by local prescribed node
   };
 
   void add_point(const scene::Scene& scene, const network::Network& network, int index, const Places& where);

@@ -22,7 +22,7 @@ inline constexpr int usual_cost = 4, filled_cost = 5;
 std::vector<int> step_cost(const Graph& graph, const std::vector<bool>& interface);
 
 /// What couples the interface's vertices, in ascending order, once all others are eliminated: their own edges, and
-/// all pairs at the same connected piece of the others.
+/// all pairs at the same connected piece of the others.  Without vertices where that is far too much to eliminate.
 Graph interface_graph(const Graph& graph, const std::vector<bool>& interface);
 
 }   // namespace cablenet::partition

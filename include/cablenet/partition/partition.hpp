@@ -12,7 +12,9 @@ namespace cablenet::partition {
 /// The free nodes that keep the ranks' interiors apart: no element joins interior nodes of two ranks.
 struct Interface {
   std::vector<int> number;   ///< solver numbers, in the order of elimination
-  Graph graph;               ///< by index into number: what is coupled once all interiors are eliminated
+  /// By index into number: what is coupled once all interiors are eliminated; without vertices where that is far too
+  /// much to eliminate.
+  Graph graph;
 };
 
 /// Owners and solver numbers of the whole network, the same on every rank.
@@ -24,16 +26,11 @@ struct Partition {
   std::vector<int> solver_number;
   std::vector<int> first_number;   ///< per rank, and one past the last
   Interface interface;             ///< empty on one rank
-  int loops = 0;                   ///< independent loops of the free nodes' graph: 0 for trees
-  std::vector<int> elimination;    ///< of trees and near-trees: solver numbers in one order for any number of ranks
 };
 
 /// Rank 0 cuts the graph of free nodes; each rank orders its own part.
 /// Any number of ranks, also more than nodes, and any number of separate networks.
 /// Collective.
 Partition make_partition(const network::Network& network, MPI_Comm communicator);
-
-/// Networks with at most this many independent loops count as near-trees.
-inline constexpr int few_loops = 10;
 
 }   // namespace cablenet::partition

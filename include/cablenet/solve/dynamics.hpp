@@ -2,7 +2,6 @@
 #include <petscts.h>
 
 #include <functional>
-#include <limits>
 #include <string>
 
 #include "cablenet/scene/scene.hpp"
@@ -66,6 +65,7 @@ private:
   void create_stepper();
   void configure_solvers();
   void read_limits();
+  bool follows_residuals_by_tangents() const;
   void solve_initial_acceleration();
   bool step(double dt);
   void accept(double t, double taken, bool retried);
@@ -98,10 +98,10 @@ private:
   SNES snes_ = nullptr;   ///< the stepper's
   KSP ksp_ = nullptr;
   TangentReuse reuse_;
-  AlphaStep alpha_{};                  ///< of the running Newton solve
-  int evaluations_ = 0;                ///< of the residual in it
-  PetscObjectState tangent_at_ = -1;   ///< of the x at which a residual brought its tangent along
-  int expected_newton_ = 1;            ///< as many as the last step took
+  AlphaStep alpha_{};               ///< of the running Newton solve
+  int evaluations_ = 0;             ///< of the residual in it
+  petsc::VectorState tangent_at_;   ///< of the x at which a residual brought its tangent along
+  int expected_newton_ = 1;         ///< as many as the last step took
   Counts counts_;
   std::string failure_;
   int failed_node_ = -1;   ///< solver number: where the tangent was singular
@@ -111,6 +111,7 @@ private:
   int outside_domain_ = -1;   ///< scene number of an element that lost its length in the running step
   int attempts_ = 0;          ///< of the running step
   bool keeps_mean_acceleration_ = false;
+  bool combines_ = false;   ///< each residual but a solve's last is followed by its tangent
   bool user_adapts_ = false;
   bool user_line_search_ = false;
 };

@@ -2,7 +2,6 @@
 #include <petscpc.h>
 
 #include <memory>
-#include <string>
 
 #include "cablenet/partition/local_network.hpp"
 
@@ -29,7 +28,8 @@ public:
 
   /// Makes `pc` a PCSHELL that solves with this; must not outlive it.
   void attach(PC pc);
-  /// Block products of a factorisation on the rank that has most of them a node.
+  /// Block products of a factorisation, the interface's included, on the rank that has most, over its share of the
+  /// nodes.
   double updates_per_node() const;
   PivotReport pivots() const;
 

@@ -12,15 +12,16 @@ public:
   /// @param worthwhile  factoring costs many times a solve
   TangentReuse(SNES snes, bool worthwhile);
 
-  /// Before each Newton solve.  @param key  what else the tangent depends on, > 0: another asks for a new one
+  /// Before each Newton solve.  @param key  what else the tangent depends on; another asks for a new one, and so does
+  /// any <= 0
   /// @param careful  compute it in every iteration
   void begin_solve(double key, bool careful);
   /// After a correction.
   /// @param contraction  of the residual by it
   void note_correction(int iteration, double contraction);
   void note_computed() { is_new_ = true; }
-  /// The last correction used a tangent from before the one before it.
-  bool was_kept() const { return was_kept_; }
+  /// The correction that was made last used the tangent of the one before it.  @pre note_correction comes after
+  bool was_kept() const { return !is_new_; }
   /// Every iteration computes the tangent anew.
   bool computes_always() const { return computes_always_; }
 
@@ -33,7 +34,6 @@ private:
   bool is_calm_ = false;   ///< every correction of the last solve served
   bool computes_always_ = true;
   bool is_new_ = false;
-  bool was_kept_ = false;
   double key_ = 0;
 };
 

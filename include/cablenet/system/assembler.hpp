@@ -6,6 +6,7 @@
 
 #include "cablenet/partition/local_network.hpp"
 #include "cablenet/petsc/handle.hpp"
+#include "cablenet/petsc/object_state.hpp"
 #include "cablenet/system/ghosts.hpp"
 #include "cablenet/system/local_state.hpp"
 #include "cablenet/system/rules.hpp"
@@ -39,7 +40,7 @@ public:
   /// With a request, also the tangent dr/dx_a + shift_v dr/dv_a + shift_a dr/da_a [N/m], unpublished.
   /// @returns false on a rank where two neighbouring nodes coincide (or a value is not finite); r is then of no use.
   bool residual(const Stage& stage, Vec x, Vec v, Vec a, Vec r, const TangentRequest* request = nullptr);
-  /// The tangent alone, unpublished; cheaper where the last residual was at this x.
+  /// The tangent alone, unpublished; cheaper where the last residual was at this x.  @pre no two neighbours coincide
   void tangent(const Stage& stage, Vec x, Vec v, const TangentRequest& request);
 
   /// The mass matrix [kg], unpublished, and the force -r at (t, x, v) with no acceleration of the free nodes [N]:
@@ -93,8 +94,9 @@ private:
   std::vector<double> outside_r_;     ///< their forces
   std::unique_ptr<Starts> starts_;    ///< per element
   std::vector<NodeStep> prescribed_;
-  PetscObjectState evaluated_ = -1;   ///< of the x that outside_ belongs to
-  double prescribed_dt_ = -1;         ///< the step that prescribed_'s ends were evaluated for
+  petsc::VectorState evaluated_;   ///< of the x that outside_ belongs to
+  Stage evaluated_stage_{};
+  double prescribed_dt_ = -1;   ///< the step that prescribed_'s ends were evaluated for
   double previous_stage_t_ = 0;
   double work_ = 0;
   int coincident_ = -1;

@@ -26,6 +26,7 @@ struct Stage {
   double t;
   double dt;
   double alpha_f;
+  bool operator==(const Stage&) const = default;
 };
 
 class TangentMatrix;

@@ -1,0 +1,131 @@
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <set>
+
+#include "network_pc_impl.hpp"
+
+/// What the elimination needs to know of a matrix's pattern, once.
+namespace cablenet::solve {
+namespace {
+
+using petsc::check;
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+int new_tag(Mat matrix) {
+  PetscMPIInt tag = 0;
+  check(PetscObjectGetNewTag(reinterpret_cast<PetscObject>(matrix), &tag));
+  return tag;
+}
+
+}   // namespace
+
+NetworkPc::Impl::Impl(const partition::LocalNetwork& network, Mat matrix)
+    : matrix_(matrix),
+      communicator_(PetscObjectComm(reinterpret_cast<PetscObject>(matrix))),
+      blocks_(matrix),
+      interior_(network.interior),
+      numbers_(network.interface.number),
+      exchange_(communicator_, new_tag(matrix)) {
+  for (std::size_t i = 0; i < numbers_.size(); ++i) place_[numbers_[i]] = static_cast<int>(i);
+  PetscBool known = PETSC_FALSE, flag = PETSC_FALSE;
+  check(MatIsSymmetricKnown(matrix, &known, &flag));
+  symmetric_ = known == PETSC_TRUE && flag == PETSC_TRUE;
+}
+
+elimination::Pattern NetworkPc::Impl::pattern() {
+  std::set<int> touched;
+  const auto place = [this](int column) {
+    const auto found = place_.find(column);
+    if (found == place_.end()) throw petsc::Failure("two ranks' interiors are coupled in the matrix");
+    return found->second;
+  };
+  const auto is_interior = [this](int column) {
+    return blocks_.is_own(column) && column - blocks_.first() < interior_;
+  };
+  for (int k = 0; k < interior_; ++k)
+    blocks_.for_each(k, [&](int column, const auto&) {
+      if (!is_interior(column)) touched.insert(place(column));
+    });
+  kept_.assign(touched.begin(), touched.end());
+  const auto local = [&](int column) {
+    if (is_interior(column)) return column - blocks_.first();
+    return interior_ + static_cast<int>(std::lower_bound(kept_.begin(), kept_.end(), place(column)) - kept_.begin());
+  };
+  elimination::Pattern pattern{std::vector<int>(at(interior_) + kept_.size(), 3), interior_, {0}, {}};
+  for (int k = 0; k < interior_; ++k) {
+    blocks_.for_each(k, [&](int column, const auto&) { pattern.adjacent.push_back(local(column)); });
+    pattern.first.push_back(static_cast<int>(pattern.adjacent.size()));
+  }
+  return pattern;
+}
+
+/// The rank that has a node's row.
+int NetworkPc::Impl::owner(int number) const {
+  const PetscInt* ranges = nullptr;
+  check(MatGetOwnershipRanges(matrix_, &ranges));
+  return static_cast<int>(std::upper_bound(ranges, ranges + ranks() + 1, PetscInt{3 * number}) - ranges) - 1;
+}
+
+/// Blocks (interface node, interior node) stand in the interface node's row, perhaps on another rank.
+void NetworkPc::Impl::find_couplings() {
+  for (int row = 0; row < blocks_.rows(); ++row)
+    blocks_.for_each(row, [&](int column, const elimination::BlockSource& source) {
+      if (blocks_.is_own(column)) return;
+      if (row < interior_)
+        exchange_.add_receive(owner(column), column, blocks_.first() + row);
+      else if (!place_.contains(column))
+        exchange_.add_send(owner(column), blocks_.first() + row, column, source);
+    });
+  exchange_.settle();
+}
+
+elimination::BlockSource NetworkPc::Impl::source(int row, int column) {
+  const int i = number(row), j = number(column);
+  if (blocks_.is_own(i)) return blocks_.find(i - blocks_.first(), j);
+  elimination::BlockSource mirror = blocks_.find(j - blocks_.first(), i);
+  if (mirror.absent) return mirror;
+  if (!symmetric_) return exchange_.source(owner(i), i, j);
+  mirror.transposed = 1;
+  return mirror;
+}
+
+bool NetworkPc::Impl::plan(const partition::LocalNetwork& network, double most_per_node) {
+  const double nodes = std::max(1.0, static_cast<double>(network.free_nodes) / ranks());
+  const bool listed = network.interface.graph.vertices() == static_cast<int>(numbers_.size());
+  std::optional<elimination::Schedule> own, shared;
+  if (listed) own = elimination::make_schedule(pattern(), symmetric_, most_per_node * nodes);
+  if (own)
+    shared = elimination::make_schedule(InterfaceSystem::pattern(network.interface), symmetric_,
+                                        most_per_node * nodes - own->updates);
+  updates_per_node_ = shared ? (own->updates + shared->updates) / nodes : std::numeric_limits<double>::infinity();
+  MPI_Allreduce(MPI_IN_PLACE, &updates_per_node_, 1, MPI_DOUBLE, MPI_MAX, communicator_);
+  if (updates_per_node_ > most_per_node) return false;
+  if (!symmetric_) find_couplings();
+  elimination_ =
+      std::make_unique<elimination::Elimination>(std::move(*own), [this](int i, int j) { return source(i, j); });
+  interface_ = std::make_unique<InterfaceSystem>(network.interface, std::move(*shared), communicator_);
+  kept_values_.resize(3 * kept_.size());
+  find_shares();
+  return true;
+}
+
+/// What this rank adds to the interface's matrix: the rows that it owns, and what its elimination leaves.
+void NetworkPc::Impl::find_shares() {
+  for (int row = interior_; row < blocks_.rows(); ++row) {
+    own_places_.push_back(place_.at(blocks_.first() + row));
+    blocks_.for_each(row, [&](int column, const elimination::BlockSource& from) {
+      if (const auto found = place_.find(column); found != place_.end())
+        own_shares_.push_back({from, interface_->block(own_places_.back(), found->second)});
+    });
+  }
+  for (const auto& block : elimination_->schedule().kept) {
+    const int row = kept_[at(block.row - interior_)], column = kept_[at(block.column - interior_)];
+    left_shares_.push_back({elimination_->update(block), interface_->block(row, column), false});
+    if (symmetric_ && row != column)
+      left_shares_.push_back({elimination_->update(block), interface_->block(column, row), true});
+  }
+}
+
+}   // namespace cablenet::solve
