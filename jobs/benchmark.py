@@ -10,7 +10,7 @@ import tempfile
 import time
 from functools import partial
 
-from benchmarks import chains, instructions, networks
+from benchmarks import chains, instructions, networks, scaling
 from benchmarks.page import Page
 from benchmarks.runs import Laboratory, RunFailed
 
@@ -19,13 +19,14 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 # Sections by number; {elements: steps} are chosen so that most runs take some seconds.
 FULL = {
     1: chains.free_fall,
-    2: partial(chains.sizes, counts={10**3: 1000, 10**4: 100, 10**5: 10, 10**6: 3}),
+    2: partial(chains.sizes, counts={10**3: 1000, 10**4: 100, 10**5: 10, 10**6: 10}),
     3: partial(networks.arrays, counts={10**3: (400, 1.3), 10**4: (80, 1.7), 10**5: (10, 1.8)}),
     4: partial(networks.net, meshes=200, steps=5),
     5: partial(chains.large, elements=10**6, steps=100),
     6: partial(chains.memory, elements=10**5),
     7: partial(instructions.free_fall, few=200, many=700),
-    8: partial(networks.scaling, counts={10**3: 200, 10**4: 40, 10**5: 5}),
+    8: partial(scaling.model, counts={10**3: 200, 10**4: 40, 10**5: 10}, sizes=((10**5, 0), (10**5, 100), (10**6, 1000)),
+               large=(10**7, 10**4, (64, 1024, 16384)), elements=10**8),
 }
 QUICK = {
     1: chains.free_fall,
@@ -35,7 +36,8 @@ QUICK = {
     5: partial(chains.large, elements=10**5, steps=10),
     6: partial(chains.memory, elements=10**4),
     7: partial(instructions.free_fall, few=100, many=200),
-    8: partial(networks.scaling, counts={10**3: 50, 10**4: 10}),
+    8: partial(scaling.model, counts={10**3: 50, 10**4: 10}, sizes=((10**4, 0), (10**4, 10)),
+               large=(10**5, 100, (16, 64)), elements=10**8),
 }
 
 
@@ -44,7 +46,7 @@ def parse():
     parser.add_argument("--quick", action="store_true", help="small versions of all, to try it out")
     parser.add_argument("--output", type=pathlib.Path, metavar="FILE", help="write the page here, too")
     parser.add_argument("--instructions", action="store_true", help="also section 7, with callgrind")
-    parser.add_argument("--scaling", action="store_true", help="also section 8, on 1 to 4 ranks")
+    parser.add_argument("--scaling", action="store_true", help="also section 8: many ranks, by a model")
     parser.add_argument("--sections", metavar="N,N", help="only these, such as 1,2")
     parser.add_argument("--repetitions", type=int, help="of each timing; 5, with --quick 2")
     parser.add_argument("--limit", type=float, default=600, help="seconds that one run may take; 600")

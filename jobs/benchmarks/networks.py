@@ -1,6 +1,4 @@
 """Arrays and nets, on one rank and on more."""
-import numpy
-
 from . import scenes
 from .runs import RunFailed, Samples, number
 
@@ -86,31 +84,3 @@ def net(laboratory, page, meshes, steps):
     page.write("\nMUMPS alone: its factorisations and solutions in the runs that are all by MUMPS, from -log_view.")
     if len(least) == 2:
         page.target(f"{name}: 1 rank over 2", least[1] / least[2], 1, at_least=True)
-
-
-def scaling(laboratory, page, counts):
-    """`counts`: {elements: steps}"""
-    page.heading("8. Arrays on 1 to 4 ranks: what an iteration costs the busiest rank")
-    rows, cost, seconds = [], [], []
-    for elements, steps in counts.items():
-        for ranks in (1, 2, 3, 4):
-            runs = laboratory.repeat(lambda: laboratory.stepping(scenes.array(elements), steps, ranks=ranks,
-                                                                 interface=True), min(3, laboratory.repetitions))
-            last = runs[0].long
-            largest, interface = 3 * max(last.report["partition"]["free_nodes"]), 3 * last.interface
-            samples = Samples(run.seconds() / run.newton for run in runs)
-            cost.append([largest, interface, ranks > 1])
-            seconds.append(samples.least)
-            rows.append([elements, ranks, largest, interface, *Samples(1e6 * v for v in samples.values).cells()])
-    # Relative errors count, so that small networks are heard; unknowns that cannot be told apart share the cost.
-    weights = 1 / numpy.array(seconds)
-    matrix = numpy.array(cost, float) * weights[:, None]
-    scale = numpy.maximum(numpy.abs(matrix).max(axis=0), 1e-300)
-    coefficients = numpy.linalg.lstsq(matrix / scale, numpy.ones(len(seconds)), rcond=1e-9)[0] / scale
-    misfit = numpy.abs(matrix @ coefficients - 1)
-    page.table(["elements", "ranks", "unknowns of the largest part", "interface unknowns", "CPU [us] min", "median",
-                "spread"], rows)
-    page.write(f"\nCPU of a Newton iteration = {1e9 * coefficients[0]:.1f} ns x unknowns of the largest part "
-               f"+ {1e9 * coefficients[1]:.1f} ns x interface unknowns + {1e6 * coefficients[2]:.1f} us on more ranks "
-               f"than one; off by at most {100 * misfit.max():.0f} %. CPU includes what waiting ranks spin away; an "
-               "array has so few interface unknowns that the last two are hard to tell apart.")

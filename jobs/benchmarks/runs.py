@@ -45,8 +45,8 @@ def number(value, digits=3):
 class Run:
     """A finished run: what run.yaml says, and the wall time of the whole process."""
 
-    def __init__(self, report, wall, events, interface):
-        self.report, self.wall, self.events, self.interface = report, wall, events, interface
+    def __init__(self, report, wall, events):
+        self.report, self.wall, self.events = report, wall, events
 
     def clock(self, kind):
         """Seconds by phase; `kind`: cpu, of the busiest rank, or wall."""
@@ -96,16 +96,6 @@ def read_events(path):
     return events
 
 
-def interface_nodes(path):
-    """How many nodes the elements of several ranks share."""
-    import h5py
-    import numpy
-    with h5py.File(path) as file:
-        lines, ranks = file["mesh/lines"][:], numpy.ravel(file["mesh/rank"][:])
-    pairs = numpy.unique(numpy.column_stack([lines.ravel(), numpy.repeat(ranks, 2)]), axis=0)
-    return int((numpy.unique(pairs[:, 0], return_counts=True)[1] > 1).sum())
-
-
 class Laboratory:
     """Where runs are made: a temporary folder, the programs, how often, how long."""
 
@@ -132,8 +122,8 @@ class Laboratory:
         shutil.rmtree(results, ignore_errors=True)
         return [str(self.program), "run", str(path), "-o", str(results), *map(str, options)]
 
-    def run(self, scene, *options, ranks=1, steps=None, events=False, interface=False):
-        """@param steps -ts_max_steps; events: with -log_view; interface: count shared nodes"""
+    def run(self, scene, *options, ranks=1, steps=None, events=False):
+        """@param steps -ts_max_steps; events: with -log_view"""
         log = self.folder / "events.csv"
         more = [*options]
         more += ["-ts_max_steps", steps] if steps else []
@@ -142,8 +132,7 @@ class Laboratory:
         _, wall = self.execute([*launcher, *self.command(scene, *more)])
         results = self.folder / "results"
         report = yaml.safe_load((results / "run.yaml").read_text(encoding="utf-8"))
-        shared = interface_nodes(results / "mesh.h5") if interface else 0
-        return Run(report, wall, read_events(log) if events else {}, shared)
+        return Run(report, wall, read_events(log) if events else {})
 
     def stepping(self, scene, steps, *options, **keywords):
         """`steps` steps after the first."""

@@ -154,6 +154,7 @@ int main(int count, char** words) {
     std::fputs("usage: yardstick_parts NODES BRANCHES PARTS...\n", stderr);
     return 2;
   }
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
   MPI_Init(&count, &words);
   for (int i = 3; i < count; ++i) measure(std::atoi(words[1]), std::atoi(words[2]), std::atoi(words[i]));
   MPI_Finalize();
