@@ -11,6 +11,7 @@
 #include "cablenet/network/build.hpp"
 #include "cablenet/output/frames.hpp"
 #include "cablenet/output/probes.hpp"
+#include "cablenet/petsc/solver_types.hpp"
 
 namespace cablenet::app {
 namespace {
@@ -226,6 +227,9 @@ private:
 
 }   // namespace
 
-int simulate(const scene::Scene& scene, const std::string& directory) { return Simulation(scene, directory).run(); }
+int simulate(const scene::Scene& scene, const std::string& directory) {
+  petsc::check_solver_types();
+  return Simulation(scene, directory).run();
+}
 
 }   // namespace cablenet::app

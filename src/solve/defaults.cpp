@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cablenet/base/errors.hpp"
 #include "cablenet/petsc/handle.hpp"
 
 namespace cablenet::solve {
@@ -31,6 +32,9 @@ bool user_chose_preconditioner() {
 double elimination_limit() {
   PetscReal limit = default_limit;
   check(PetscOptionsGetReal(nullptr, nullptr, "-cable_elimination_limit", &limit, nullptr));
+  if (!(limit >= 0))
+    throw InputError(
+        fmt::format("-cable_elimination_limit: {} is not allowed; expected block products a node, >= 0", limit));
   return limit;
 }
 

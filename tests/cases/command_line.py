@@ -76,7 +76,17 @@ def petsc_options(bench):
     expect(done.returncode == 0 and "-snes_mxa_it 3 was not used" in done.stderr, "an option that nothing used is reported")
     bench("run", "scene.yaml", "-o", "radius", "-ts_alpha_radius", "0.6")
     expect("generalized_alpha, spectral radius 0.6" in bench.report("radius"), "-ts_alpha_radius takes the scheme that has one")
-    for option, value in (("-ts_type", "bdf"), ("-ts_alpha_radius", "1.5"), ("-cable_tangent", "wrong"), ("-cable_axial_dissipation", "0.7")):
+    bench("run", "scene.yaml", "-o", "default")
+    expect("network elimination, 1.0 block products a node" in bench.report("default"), "the solver is told, and why")
+    done = bench("run", "scene.yaml", "-o", "mumps", "-cable_elimination_limit", "0")
+    expect(done.returncode == 0 and "lu (mumps), elimination would take more than 0" in bench.report("mumps"), "beyond the limit MUMPS is taken")
+    done = bench("run", "scene.yaml", "-o", "package", "-pc_factor_mat_solver_type", "superlu")
+    expect(done.returncode == 0 and "lu (superlu)" in bench.report("package"), "-pc_factor_mat_solver_type wins")
+    done = bench("run", "scene.yaml", "-o", "logged", "-log_view")
+    expect(all(event in done.stdout for event in ("CableResidual", "CableFactor", "CableSolve")), "-log_view tells a step's parts")
+    for option, value in (("-ts_type", "bdf"), ("-ts_alpha_radius", "1.5"), ("-cable_tangent", "wrong"), ("-cable_axial_dissipation", "0.7"),
+                          ("-cable_elimination_limit", "-1"), ("-pc_type", "ul"), ("-ksp_type", "gmress"), ("-snes_type", "newton"),
+                          ("-snes_linesearch_type", "basics"), ("-mat_type", "baji")):
         done = bench("run", "scene.yaml", "-o", "refused", option, value)
         expect(done.returncode == 2 and option in done.stderr and not (bench.folder / "refused").exists(),
                f"{option} {value} is refused")

@@ -20,6 +20,7 @@ struct LinearSolver {
 /// KSP preonly with the network elimination, or, where its symbolic pass predicts more than -cable_elimination_limit
 /// block products a node (nets), MUMPS with METIS.  Reads the options database.  Collective.
 /// @param matrix  AIJ unless the user chose another type, which gets PETSc's LU
+/// @throws InputError if the limit is negative
 LinearSolver configure_linear_solver(KSP ksp, const partition::LocalNetwork& network, Mat matrix);
 
 /// Newton with a basic line search, an absolute tolerance alone.

@@ -1,0 +1,9 @@
+#pragma once
+
+namespace cablenet::petsc {
+
+/// Looks at -snes_type, -snes_linesearch_type, -ksp_type, -pc_type and -mat_type before anything is solved.
+/// @throws InputError on every rank alike if this PETSc has no such type, naming those that it has.
+void check_solver_types();
+
+}   // namespace cablenet::petsc
