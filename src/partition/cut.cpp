@@ -23,12 +23,14 @@ public:
     connected_ = std::all_of(piece.begin(), piece.end(), [](int number) { return number == 0; });
   }
 
-  enum class Way { direct, recursive };
+  enum class Way { direct, recursive, branches };
 
-  /// The direct way keeps a part in one piece; the recursive one balances parts of few vertices or heavy branches.
+  /// The direct way keeps a part in one piece; the recursive one balances parts of few vertices or heavy branches;
+  /// the last one takes whole branches off hubs, whose edges count for little since the hub alone becomes interface.
   std::vector<Way> ways(int parts) const {
     const bool large = first_.size() > at(least_for_direct) * at(parts);
-    return large ? std::vector<Way>{Way::direct, Way::recursive} : std::vector<Way>{Way::recursive};
+    return large ? std::vector<Way>{Way::direct, Way::recursive, Way::branches}
+                 : std::vector<Way>{Way::recursive, Way::branches};
   }
 
   std::vector<int> cut(const std::vector<int>& weight, int parts, Way way) {
@@ -42,14 +44,30 @@ public:
     options[METIS_OPTION_SEED] = 1;
     options[METIS_OPTION_UFACTOR] = thousandths_over_average;
     if (way == Way::direct && connected_) options[METIS_OPTION_CONTIG] = 1;
+    std::vector<idx_t> edges = way == Way::branches ? edge_weights() : std::vector<idx_t>{};
     const int status = (way == Way::direct ? METIS_PartGraphKway : METIS_PartGraphRecursive)(
-        &vertices, &constraints, first_.data(), adjacent_.data(), weights.data(), nullptr, nullptr, &wanted, nullptr,
-        nullptr, options, &edges_cut, result.data());
+        &vertices, &constraints, first_.data(), adjacent_.data(), weights.data(), nullptr,
+        edges.empty() ? nullptr : edges.data(), &wanted, nullptr, nullptr, options, &edges_cut, result.data());
     if (status != METIS_OK) throw std::runtime_error("METIS could not cut the network into parts");
     return {result.begin(), result.end()};
   }
 
 private:
+  /// In inverse proportion to the edges at the busier end.
+  std::vector<idx_t> edge_weights() const {
+    constexpr idx_t heaviest = 64;
+    std::vector<idx_t> weights;
+    weights.reserve(adjacent_.size());
+    const auto degree = [this](idx_t v) {
+      return first_[static_cast<std::size_t>(v) + 1] - first_[static_cast<std::size_t>(v)];
+    };
+    for (std::size_t v = 0; v + 1 < first_.size(); ++v)
+      for (idx_t k = first_[v]; k < first_[v + 1]; ++k)
+        weights.push_back(std::max<idx_t>(
+            1, heaviest / std::max(degree(static_cast<idx_t>(v)), degree(adjacent_[static_cast<std::size_t>(k)]))));
+    return weights;
+  }
+
   static constexpr int least_for_direct = 100;   ///< vertices per part
   static constexpr idx_t thousandths_over_average = 3;
 
@@ -66,10 +84,12 @@ public:
   std::vector<int> run() {
     const auto ways = cutter_.ways(parts_);
     const std::vector<int> alike(at(graph_.vertices()), 1);
-    if (parts_ == 2 || count_loops(graph_) > loops_of_net) return cutter_.cut(alike, parts_, ways.front());
+    if (count_loops(graph_) > loops_of_net) return cutter_.cut(alike, parts_, ways.front());
+    // Two parts of a tree have interface on one side alone.
+    const int cuts = parts_ == 2 ? 1 : most_cuts;
     for (const auto way : ways) {
       std::vector<int> cost = alike;
-      for (int repetition = 0; repetition < most_cuts; ++repetition) cost = try_cut(cutter_.cut(cost, parts_, way));
+      for (int repetition = 0; repetition < cuts; ++repetition) cost = try_cut(cutter_.cut(cost, parts_, way));
       if (imbalance_ < good_imbalance) break;
     }
     return std::move(best_);

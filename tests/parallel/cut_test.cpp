@@ -109,6 +109,22 @@ TEST(CutNetwork, SeparateCablesAreBalanced) {
   EXPECT_LT(found.imbalance(), 0.05);
 }
 
+/// Many cables at one node, a body's say: cutting its edges costs one interface vertex in all.
+TEST(CutNetwork, AHubsBranchesAreSharedOut) {
+  constexpr int branches = 600, branch = 5;
+  Edges edges;
+  for (int b = 0; b < branches; ++b)
+    for (int k = 0; k < branch; ++k) {
+      const int tip = 1 + b * branch + k;
+      edges.emplace_back(k == 0 ? 0 : tip - 1, tip);
+    }
+  for (const int parts : {2, 3, 8}) {
+    const Measured found = measure(graph_of(1 + branches * branch, edges), parts);
+    EXPECT_LT(found.imbalance(), 0.05) << parts << " parts";
+    EXPECT_LE(found.interface, parts) << parts << " parts";
+  }
+}
+
 TEST(CutNetwork, MorePartsThanVerticesHaveOneEach) {
   const std::vector<int> part = partition::cut_network(graph_of(3, path(3)), 5);
   EXPECT_EQ(std::set<int>(part.begin(), part.end()).size(), 3u);
