@@ -59,7 +59,7 @@ install_packages() {
 
 advise() {
   echo "setup: $1" >&2
-  echo "setup: needed are a C++20 compiler, CMake >= 3.18, make, pkg-config, PETSc >= 3.18 (real scalars), Open MPI," >&2
+  echo "setup: needed are a C++20 compiler, CMake >= 3.18, make, pkg-config, PETSc >= 3.18 (real scalars), a fast BLAS, Open MPI," >&2
   echo "setup: METIS, parallel HDF5, Eigen 3, yaml-cpp, CLI11, fmt, GiNaC, muParser, GSL, xxHash, GoogleTest;" >&2
   echo "setup: for tests and pictures clang-format, ParaView, Xvfb, python3 with numpy, h5py, yaml, matplotlib" >&2
   echo "setup: going on with what is here" >&2
