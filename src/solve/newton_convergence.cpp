@@ -15,7 +15,7 @@ bool NewtonConvergence::is_at_rounding(int iteration, double norm, double noise,
   if (norm <= 0.5 * noise && error <= 0.01 * noise) return true;
   // The careful line search of a retry cannot go below rounding at all, and would call that a failure.
   const bool stuck = norm > 0.25 * previous;
-  return (stuck || is_retry) && norm <= 8 * noise;
+  return (stuck || is_retry) && norm <= (same_tangent ? 1 : 8) * noise;
 }
 
 }   // namespace cablenet::solve

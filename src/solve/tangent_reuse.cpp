@@ -10,7 +10,8 @@ namespace {
 
 using petsc::check;
 
-/// A tangent is kept if its first correction brings the residual down to this: Newton is then near its solution,
+/// A tangent is kept if its first correction brings the residual down to this, and so did the one before it or all of
+/// the last solve: Newton is then near its solution,
 constexpr double good = 0.02;
 
 /// and for as long as further ones bring it down to this.
@@ -42,18 +43,23 @@ TangentReuse::TangentReuse(SNES snes, bool worthwhile) : snes_(snes) {
 void TangentReuse::refresh() { check(SNESSetLagJacobian(snes_, once)); }
 
 void TangentReuse::begin_solve(double key, bool careful) {
-  const bool same = std::abs(key - key_) <= same_key * key_;
-  const bool calm = std::exchange(is_calm_, true);
+  const bool same = std::abs(key - key_) <= same_key * key_ && !careful;
+  is_trusted_ = std::exchange(new_ones_served_, true) && same;
+  const bool carries_over = std::exchange(kept_ones_served_, true) && is_trusted_;
   is_careful_ = careful;
   key_ = key;
-  if (is_active_ && (careful || !same || !calm)) refresh();
+  good_in_row_ = 0;
+  if (is_active_ && !carries_over) refresh();
 }
 
 void TangentReuse::note_correction(int iteration, double contraction) {
   const bool kept = !std::exchange(is_new_, false);
-  if (contraction <= (kept ? worth : good) && iteration < patience && !is_careful_) return;
-  is_calm_ = false;
-  if (is_active_) refresh();
+  const bool served = contraction <= (kept ? worth : good) && iteration < patience && !is_careful_;
+  bool& all = kept ? kept_ones_served_ : new_ones_served_;
+  all = all && served;
+  good_in_row_ = served ? good_in_row_ + 1 : 0;
+  const bool keep = served && (kept || is_trusted_ || good_in_row_ >= 2);
+  if (is_active_ && !keep) refresh();
 }
 
 }   // namespace cablenet::solve

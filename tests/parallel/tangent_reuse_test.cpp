@@ -46,19 +46,22 @@ using Fresh = std::vector<bool>;
 TEST_F(TangentReuse, KeepsWhatServes) {
   solve::TangentReuse reuse(snes_, true);
   EXPECT_FALSE(reuse.computes_always());
-  EXPECT_EQ(solve(reuse, 0.1, {1e-3, 0.1, 0.1}), (Fresh{true, false, false}));
+  EXPECT_EQ(solve(reuse, 0.1, {1e-3, 1e-3, 0.1, 0.1}), (Fresh{true, true, false, false}))
+      << "after two good corrections";
   EXPECT_EQ(solve(reuse, 0.1, {1e-3, 0.1}), (Fresh{false, false})) << "over a step in which all served";
   EXPECT_EQ(solve(reuse, 0.1 * (1 + 1e-12), {0.1, 0.1}), (Fresh{false, false})) << "a step that differs by rounding";
 }
 
 TEST_F(TangentReuse, RefreshesWhatDoesNot) {
   solve::TangentReuse reuse(snes_, true);
-  EXPECT_EQ(solve(reuse, 0.1, {0.1, 1e-3, 0.5, 1e-3}), (Fresh{true, true, false, true})) << "slow corrections";
-  EXPECT_EQ(solve(reuse, 0.1, {1e-3}), (Fresh{true})) << "after a step with slow corrections";
-  EXPECT_EQ(solve(reuse, 0.05, {1e-3, 0.1}), (Fresh{true, false})) << "another step size";
+  EXPECT_EQ(solve(reuse, 0.1, {1e-3, 0.1, 1e-3, 1e-3, 0.5, 1e-3}), (Fresh{true, true, true, true, false, true}));
+  EXPECT_EQ(solve(reuse, 0.1, {1e-3, 1e-3, 0.1}), (Fresh{true, true, false})) << "after a step with slow corrections";
+  EXPECT_EQ(solve(reuse, 0.1, {0.5, 1e-3, 0.1}), (Fresh{false, true, false}))
+      << "a trusted tangent that no longer serves";
+  EXPECT_EQ(solve(reuse, 0.05, {1e-3, 1e-3, 0.1}), (Fresh{true, true, false})) << "another step size";
   EXPECT_EQ(solve(reuse, 0.05, {1e-3, 1e-3, 1e-3}, true), (Fresh{true, true, true})) << "a retry";
-  EXPECT_EQ(solve(reuse, -0.05, {1e-3, 0.1}), (Fresh{true, false})) << "the start phase";
-  EXPECT_EQ(solve(reuse, -0.05, {1e-3}), (Fresh{true})) << "once more";
+  EXPECT_EQ(solve(reuse, -0.05, {1e-3, 1e-3}), (Fresh{true, true})) << "the start phase";
+  EXPECT_EQ(solve(reuse, 0.05, {1e-3}), (Fresh{true})) << "after the start phase";
   EXPECT_EQ(solve(reuse, 0.05, std::vector<double>(13, 0.01)).at(12), true) << "a solve without end";
 }
 
@@ -103,5 +106,6 @@ TEST(NewtonConvergence, EndsWhereItsErrorIsBelowRounding) {
 TEST(NewtonConvergence, EndsWhereNothingIsGained) {
   EXPECT_TRUE(ends({1e-2, 1e-4, 6e-9, 5e-9}, false));
   EXPECT_FALSE(ends({1e-2, 1e-4, 6e-8, 5e-8}, false));
+  EXPECT_FALSE(ends({1e-2, 1e-4, 6e-9, 5e-9}, true)) << "a new tangent may gain something";
   EXPECT_TRUE(ends({1e-2, 6e-9}, false, true)) << "a retry's careful line search";
 }

@@ -31,7 +31,10 @@ private:
   SNES snes_ = nullptr;
   bool is_active_ = false;
   bool is_careful_ = false;
-  bool is_calm_ = false;   ///< every correction of the last solve served
+  bool new_ones_served_ = false;    ///< in this solve, every correction by a new tangent
+  bool kept_ones_served_ = false;   ///< in this solve, every correction by a kept one
+  bool is_trusted_ = false;         ///< new tangents served in the last solve
+  int good_in_row_ = 0;
   bool computes_always_ = true;
   bool is_new_ = false;
   double key_ = 0;
