@@ -64,8 +64,7 @@ Pivots Elimination::factor_uniform(const Arrays& arrays) {
     for (const double* to : {pivot, lower, upper}) fetch(to + 9 * ahead, 1);
     load_block(pivot, *source++, arrays);
     const int negative = factor_block(pivot);
-    if (negative < 0) return {k, pivots.negative, pivots.first_negative};
-    if (negative > 0 && pivots.negative == 0) pivots.first_negative = k;
+    if (negative < 0) return {k, pivots.negative};
     pivots.negative += negative;
     for (int i = 0; i < count; ++i) {
       if constexpr (!symmetric) load_block(upper + 9 * i, *source++, arrays);

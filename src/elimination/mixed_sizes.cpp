@@ -87,8 +87,8 @@ Pivots Elimination::factor_mixed(const Arrays& arrays) {
     int* const exchanges = exchanges_.data() + largest_block * k;
     load_next(pivot, own, own);
     const int sign = elimination::factor({pivot, own, own}, exchanges);
-    if (sign == 0) return {k, pivots.negative, pivots.first_negative};
-    if (sign < 0 && pivots.negative++ == 0) pivots.first_negative = k;
+    if (sign == 0) return {k, pivots.negative};
+    if (sign < 0) ++pivots.negative;
     visit_later(k, [&](double* upper, double* lower, int j) {
       const int size = schedule_.size[at(j)];
       load_next(upper, own, size);

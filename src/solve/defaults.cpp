@@ -4,10 +4,12 @@
 
 #include "cablenet/base/errors.hpp"
 #include "cablenet/petsc/handle.hpp"
+#include "cablenet/petsc/queries.hpp"
 
 namespace cablenet::solve {
 
 using petsc::check;
+using petsc::has_option;
 
 namespace {
 
@@ -17,12 +19,6 @@ constexpr double default_limit = 600;
 
 /// Block products a node from which factoring costs ten times a solution.
 constexpr double dear = 50;
-
-bool has_option(const char* name) {
-  PetscBool found = PETSC_FALSE;
-  check(PetscOptionsHasName(nullptr, nullptr, name, &found));
-  return found == PETSC_TRUE;
-}
 
 /// A shell would be kept by -snes_mf, too, which means to do without.
 bool user_chose_preconditioner() {
@@ -44,15 +40,9 @@ bool has_type(Mat matrix, const char* sequential, const char* distributed) {
   return matches == PETSC_TRUE;
 }
 
-bool is_symmetric(Mat matrix) {
-  PetscBool known = PETSC_FALSE, flag = PETSC_FALSE;
-  check(MatIsSymmetricKnown(matrix, &known, &flag));
-  return known == PETSC_TRUE && flag == PETSC_TRUE;
-}
-
 void use_mumps(PC pc, Mat matrix) {
   constexpr auto ordering = "-mat_mumps_icntl_7", metis = "5";
-  check(PCSetType(pc, is_symmetric(matrix) ? PCCHOLESKY : PCLU));
+  check(PCSetType(pc, petsc::is_known_symmetric(matrix) ? PCCHOLESKY : PCLU));
   check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   if (!has_option(ordering)) check(PetscOptionsSetValue(nullptr, ordering, metis));
 }

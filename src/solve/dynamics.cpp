@@ -7,12 +7,14 @@
 #include <limits>
 
 #include "cablenet/base/errors.hpp"
+#include "cablenet/petsc/queries.hpp"
 #include "cablenet/solve/defaults.hpp"
 
 namespace cablenet::solve {
 namespace {
 
 using petsc::check;
+using petsc::has_option;
 
 /// Over the step that was asked for: where shrinking it ends.
 constexpr double smallest_step = 1e-10;
@@ -22,12 +24,6 @@ constexpr double relative_force_tolerance = 1e-12;
 
 /// How often the largest coordinate, which rounding depends on, is looked up.
 constexpr long steps_between_norms = 64;
-
-bool has_option(const char* name) {
-  PetscBool found = PETSC_FALSE;
-  check(PetscOptionsHasName(nullptr, nullptr, name, &found));
-  return found == PETSC_TRUE;
-}
 
 }   // namespace
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <set>
 
+#include "cablenet/petsc/queries.hpp"
 #include "network_pc_impl.hpp"
 
 /// What the elimination needs to know of a matrix's pattern, once.
@@ -29,9 +30,7 @@ NetworkPc::Impl::Impl(const partition::LocalNetwork& network, Mat matrix)
       numbers_(network.interface.number),
       exchange_(communicator_, new_tag(matrix)) {
   for (std::size_t i = 0; i < numbers_.size(); ++i) place_[numbers_[i]] = static_cast<int>(i);
-  PetscBool known = PETSC_FALSE, flag = PETSC_FALSE;
-  check(MatIsSymmetricKnown(matrix, &known, &flag));
-  symmetric_ = known == PETSC_TRUE && flag == PETSC_TRUE;
+  symmetric_ = petsc::is_known_symmetric(matrix);
 }
 
 elimination::Pattern NetworkPc::Impl::pattern() {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "cablenet/petsc/handle.hpp"
+#include "cablenet/petsc/queries.hpp"
 
 namespace cablenet::solve {
 namespace {
@@ -29,10 +30,8 @@ constexpr PetscInt once = -2;
 }   // namespace
 
 TangentReuse::TangentReuse(SNES snes, bool worthwhile) : snes_(snes) {
-  PetscBool lag_chosen = PETSC_FALSE, persistence_chosen = PETSC_FALSE;
-  check(PetscOptionsHasName(nullptr, nullptr, "-snes_lag_jacobian", &lag_chosen));
-  check(PetscOptionsHasName(nullptr, nullptr, "-snes_lag_jacobian_persists", &persistence_chosen));
-  is_active_ = worthwhile && lag_chosen == PETSC_FALSE && persistence_chosen == PETSC_FALSE;
+  is_active_ =
+      worthwhile && !petsc::has_option("-snes_lag_jacobian") && !petsc::has_option("-snes_lag_jacobian_persists");
   PetscInt lag = 1;
   check(SNESGetLagJacobian(snes_, &lag));
   computes_always_ = lag == 1 && !is_active_;

@@ -213,7 +213,6 @@ TEST(Elimination, CountsNegativeEigenvalues) {
   const Pivots pivots = s.elimination(true).factor({s.matrix.data(), nullptr, nullptr});
   EXPECT_EQ(pivots.negative, (eigenvalues.array() < 0).count());
   EXPECT_GT(pivots.negative, 3);
-  EXPECT_EQ(pivots.first_negative, 2);
 }
 
 TEST(Schedule, CountsItsWorkAndGivesUpBeyondTheLimit) {

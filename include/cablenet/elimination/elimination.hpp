@@ -31,9 +31,8 @@ using Arrays = std::array<const double*, 3>;
 
 /// What became of the pivots.
 struct Pivots {
-  int singular = -1;         ///< the first block whose pivot is singular to rounding; the elimination ended there
-  int negative = 0;          ///< negative pivots: with a symmetric matrix, its negative eigenvalues
-  int first_negative = -1;   ///< block
+  int singular = -1;   ///< the first block whose pivot is singular to rounding; the elimination ended there
+  int negative = 0;    ///< negative pivots: with a symmetric matrix, its negative eigenvalues
 };
 
 /// Not symmetric where sizes are mixed.

@@ -5,7 +5,7 @@ namespace cablenet::solve {
 
 /// Keeps a tangent, and its factors, over Newton iterations for as long as they serve, where factors are dear; over
 /// steps, too, after one in which all of them did, lest Newton start off towards another solution.  Does nothing where
-/// -snes_lag_jacobian is given.  Tests: tests/parallel/tangent_reuse_test.cpp
+/// -snes_lag_jacobian or -snes_lag_jacobian_persists is given.  Tests: tests/parallel/tangent_reuse_test.cpp
 class TangentReuse {
 public:
   TangentReuse() = default;
