@@ -154,6 +154,7 @@ int Builder::cable_node(std::size_t index, int k) {
 int Builder::end_node(const scene::CableEnd& end) {
   return std::visit(Overloaded{[](const scene::PointEnd& point) { return point.point; },
                                [&](const scene::NetEnd& net) { return net_node(net.net, net.node[0], net.node[1]); },
+                               [&](const scene::BodyEnd& end_on_body) { return end_on_body.body; },
                                [&](const scene::TapEnd& tap) {
                                  lay_cable(at(tap.cable));
                                  return cable_node(at(tap.cable), node_at(arcs_[at(tap.cable)], tap.at));

@@ -118,7 +118,7 @@ Frame Frames::collect(const system::LocalState& state, long step) {
   send(all_nodes_, 1, node_tension_, block_node_tension_, MPI_SUM);
   for (std::size_t i = 0; i < block_node_tension_.size(); ++i)
     block_node_tension_[i] /= std::max(1.0, elements_at_node_[i]);
-  return {state.t, step, points_, velocity_, block_node_tension_, block_tension_, block_strain_};
+  return {state.t, step, points_, velocity_, block_node_tension_, block_tension_, block_strain_, {}, {}, {}, {}};
 }
 
 }   // namespace cablenet::output

@@ -26,6 +26,7 @@ public:
         here_.loads.push_back({local_of_[at(load.node)], load.mass, load.force});
     here_.materials = network_.materials;
     here_.gravity = network_.gravity;
+    here_.blocks = partition_.blocks;
     here_.interface = partition_.interface;
     return std::move(here_);
   }

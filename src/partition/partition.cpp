@@ -148,6 +148,7 @@ Partition make_partition(const network::Network& network, MPI_Comm communicator)
                network.position.size(), partition);
   partition.interface.graph = std::move(cut.coupled);
   for (const int v : cut.order) partition.interface.number.push_back(partition.solver_number[at(free_nodes[at(v)])]);
+  partition.blocks = Blocks(graph.vertices(), {});
   assign_elements(network, partition);
   return partition;
 }

@@ -24,6 +24,10 @@ struct Mesh {
   std::vector<int> cable_id;               ///< per element of the block: index into cable_names
   std::vector<int> rank;                   ///< per element of the block: the rank that computes it
   std::vector<std::string> cable_names;    ///< cables, then nets; the same on every rank
+  std::vector<std::string> body_names;     ///< the same on every rank
+  /// On rank 0: edges of the uniform box that has the body's mass and inertia [m], (bodies, 3); and how the box lies in
+  /// body axes, a quaternion w x y z, (bodies, 4).
+  std::vector<double> body_box, body_box_attitude;
 };
 
 /// This rank's block of one instant.
@@ -35,6 +39,9 @@ struct Frame {
   std::span<const double> tension_node;   ///< mean tension of the elements at a node [N], (local_nodes)
   std::span<const double> tension;        ///< [N], per element of the block
   std::span<const double> strain;         ///< [1], per element of the block
+  /// On rank 0, row-major: of the centres of gravity (bodies, 3) [m] and [m/s]; unit quaternions w x y z, body axes to
+  /// world (bodies, 4); in body axes (bodies, 3) [rad/s].
+  std::span<const double> body_position, body_velocity, body_quaternion, body_angular_velocity;
 };
 
 /// Writes frames.  Every member function is collective over the communicator; the destructor is not, and loses the open

@@ -29,6 +29,7 @@ struct LocalNetwork {
   int first_number = 0;            ///< solver number of the first owned node
   int free_nodes = 0;              ///< on all ranks together
   int interior = 0;                ///< owned nodes before those of the interface
+  Blocks blocks;                   ///< of all ranks, as in Partition
   Interface interface;             ///< of all ranks, as in Partition
   std::vector<int> ghost_number;   ///< solver numbers of the ghosts
   std::vector<int> ghost_owner;    ///< rank

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cablenet/network/network.hpp"
+#include "cablenet/partition/blocks.hpp"
 #include "cablenet/partition/graph.hpp"
 
 /// Who computes what, and in which order the unknowns are numbered.  Tests: tests/parallel/partition_test.cpp
@@ -25,6 +26,7 @@ struct Partition {
   /// Per node, -1 if prescribed: contiguous on each rank, its interior from leaf to root, then its interface nodes.
   std::vector<int> solver_number;
   std::vector<int> first_number;   ///< per rank, and one past the last
+  Blocks blocks;                   ///< by solver number
   Interface interface;             ///< empty on one rank
 };
 

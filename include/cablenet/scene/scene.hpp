@@ -32,6 +32,31 @@ struct Point {
   std::optional<Motion> motion;         ///< none: the point is free
 };
 
+/// Where cables may be fastened to a body.
+struct Attachment {
+  std::string name;
+  Vector3 offset;   ///< from the centre of gravity, body axes [m]
+};
+
+/// How a body's attitude is described to the solver.
+enum class Rotation { quaternion, euler };
+
+struct Body {
+  std::string name;
+  std::string where;                    ///< "file:line" for messages
+  double mass = 0;                      ///< [kg], > 0
+  std::optional<Matrix3> inertia;       ///< about the centre of gravity, body axes [kg m^2]; none: a point mass
+  Vector3 position = Vector3::Zero();   ///< of the centre of gravity, drawn [m]
+  Quaternion attitude = Quaternion::Identity();   ///< drawn, unit: body axes to world
+  Vector3 velocity = Vector3::Zero();             ///< [m/s]
+  Vector3 angular_velocity = Vector3::Zero();     ///< body axes [rad/s]
+  Vector3 force = Vector3::Zero();                ///< constant, world frame [N]
+  Vector3 torque = Vector3::Zero();               ///< constant, body axes [N m]
+  std::vector<Attachment> attachments;
+  Rotation rotation = Rotation::quaternion;
+  std::optional<double> link_stiffness;   ///< EA of the links between cables and body [N]; none: cables end on the body
+};
+
 struct PointEnd {
   int point;   ///< index into Scene::points
 };
@@ -43,7 +68,11 @@ struct NetEnd {
   int net;                   ///< index into Scene::nets
   std::array<int, 2> node;   ///< 0..meshes along the first and second edge
 };
-using CableEnd = std::variant<PointEnd, TapEnd, NetEnd>;
+struct BodyEnd {
+  int body;         ///< index into Scene::bodies
+  int attachment;   ///< index into its attachments
+};
+using CableEnd = std::variant<PointEnd, TapEnd, NetEnd, BodyEnd>;
 
 enum class Shape { straight, catenary, polyline };
 
@@ -83,11 +112,11 @@ struct Time {
   double axial_dissipation = 0;   ///< xi of energy_momentum: 0 where the scene names the scheme, else 0.05
 };
 
-enum class HistoryKind { point, cable };
+enum class HistoryKind { point, cable, body };
 
 struct HistoryItem {
   HistoryKind kind;
-  int index;   ///< into Scene::points or Scene::cables
+  int index;   ///< into Scene::points, cables or bodies
 };
 
 struct Output {
@@ -103,10 +132,12 @@ struct Scene {
   double gravity = 9.80665;   ///< [m/s^2] along -z
   std::vector<CableType> cable_types;
   std::vector<Point> points;
+  std::vector<Body> bodies;
   std::vector<Cable> cables;
   std::vector<Net> nets;
   Time time;
   Output output;
+  std::vector<std::string> notes;   ///< what is allowed but perhaps not meant: "file:line: key: text"
 };
 
 }   // namespace cablenet::scene
