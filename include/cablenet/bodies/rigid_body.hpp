@@ -1,0 +1,97 @@
+#pragma once
+#include <array>
+
+#include "cablenet/base/linear_algebra.hpp"
+
+/// A rigid body: the position X of its centre of gravity and its attitude, a quaternion q of four unknowns of which
+/// none is ever singular, or the papers' roll, pitch, yaw.  A cable's end is fastened at x = X + R r.
+/// Euler's equations I w' + w x I w = torque (body axes) are weighted by the rates' map w = rates y'.  Where a step is
+/// taken `conserving` (quaternions), they are taken from end to end: with q1 = 2 q_a - q0, W = 2 E(q_a) q_a'/|q_a|^2,
+///   w1 = 2 W - w0,  R1 I w1 - R0 I w0 = dt torque,  |q1| = 1,  levers of forces (R0 + R1) r/(2 - dt^2 |W|^2/8),
+/// so that the kinetic energy changes by exactly what forces at attachments and the torque do, and without them energy
+/// and angular momentum stay.  Otherwise they hold at the stage, and a gauge 4 Is q (g'' + 2 s g' + s^2 g),
+/// g = (|q|^2 - 1)/2, s = 0.1/dt, which moves nothing, keeps |q| near 1.
+/// Source: Tonin & Braun, CILAMCE 2020, eqs 13-18; end to end after Simo & Wong, IJNME 31 (1991) 19.
+/// Tests: tests/unit/rigid_body_test.cpp
+namespace cablenet::bodies {
+
+/// What turns: nothing (a point mass), or an attitude described in one of two ways.
+enum class Rotation { none, euler, quaternion };
+
+/// Beyond its position: 0, 3 or 4.
+int rotation_unknowns(Rotation);
+
+using Vector4 = Eigen::Vector4d;
+using Matrix4 = Eigen::Matrix4d;
+using Matrix34 = Eigen::Matrix<double, 3, 4>;
+
+struct Properties {
+  Rotation rotation = Rotation::none;
+  Matrix3 inertia = Matrix3::Zero();        ///< about the centre of gravity, body axes [kg m^2]
+  Vector3 torque = Vector3::Zero();         ///< constant, body axes [N m]
+  Matrix3 attitude = Matrix3::Identity();   ///< R of what does not turn
+};
+
+/// The attitude's unknowns and their first two derivatives; those that a body has not are zero.
+struct RotationState {
+  Vector4 y = Vector4::Zero();
+  Vector4 dy = Vector4::Zero();
+  Vector4 ddy = Vector4::Zero();
+};
+
+/// The unknowns of an attitude and an angular velocity (body axes).
+RotationState rotation_state(Rotation, const Quaternion& attitude, const Vector3& w);
+/// Body axes to world, unit; its sign follows y continuously.
+Quaternion attitude(const Properties&, const Vector4& y);
+/// Body axes [rad/s].
+Vector3 angular_velocity(Rotation, const RotationState&);
+/// cos(pitch) where that is what may become singular, otherwise 1.
+double distance_from_singular(Rotation, const Vector4& y);
+
+/// A body at the start of a step.
+struct Start {
+  Vector4 y = Vector4::Zero(), dy = Vector4::Zero();
+  Matrix3 R = Matrix3::Identity();
+  Vector3 w = Vector3::Zero();
+};
+Start start_of(const Properties&, const Vector4& y, const Vector4& dy);
+
+/// The stage y_a = y0 + alpha_f (y1 - y0) of a step; at an instant alpha_f = 1, dt = 0.
+struct StepRule {
+  double alpha_f = 1;
+  double dt = 0;
+  bool conserving = false;   ///< @pre alpha_f = 1/2, a quaternion
+};
+
+/// How y_a, y_a', y_a'' follow the unknown that a tangent is by: 1, shift_v, shift_a; 0, 0, 1 for a mass matrix.
+struct Seeds {
+  double position, velocity, acceleration;
+};
+
+/// What a stage makes of the attitude, or its derivative by one of the unknowns.
+struct StageMaps {
+  /// An attachment r moves as X_a + place r, X_a' + velocity r, X_a'' + acceleration r, where place and velocity lie
+  /// between the step's two ends.
+  Matrix3 place, velocity, acceleration;
+  Matrix3 lever;   ///< a force F at r turns by (lever r) x F, world frame
+  Matrix34 turn;   ///< a torque T, world frame, is the generalised force turn^T T on y
+  Vector4 own;     ///< inertia, gyroscopic and gauge forces on y less the constant torque's
+};
+
+struct Stage {
+  StageMaps at;
+  std::array<StageMaps, 4> by;   ///< derivatives by the unknowns, if asked for
+};
+
+/// @param seeds  none: values alone
+Stage evaluate(const Properties&, const Start&, const StepRule&, const RotationState& stage, const Seeds* seeds);
+
+/// w at the end of a conserving step: 2 W - w0.
+Vector3 conserving_end(const Start&, double dt, const Vector4& y1);
+
+/// Sum of F r^T over forces F at attachments r; all that the attitude's equations need of them.  [N m]
+using Moments = Matrix3;
+/// The forces' torque sum (lever r) x F.
+Vector3 torque_of(const Matrix3& lever, const Moments& moments);
+
+}   // namespace cablenet::bodies
