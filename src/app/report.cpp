@@ -77,7 +77,7 @@ std::string scene_hash(const scene::Scene& scene) {
 std::string describe(const scene::Scene& scene, const network::Network& network) {
   return fmt::format("{} cables, {} nets, {} nodes ({} held or moved), {} elements, {} bodies, {} unknowns",
                      scene.cables.size(), scene.nets.size(), network.position.size(), network.prescribed.size(),
-                     network.elements.size(), 0, 3 * (network.position.size() - network.prescribed.size()));
+                     network.elements.size(), network.bodies.size(), network.unknowns());
 }
 
 void write_report(const std::filesystem::path& path, const scene::Scene& scene, const network::Network& network,
@@ -96,8 +96,8 @@ void write_report(const std::filesystem::path& path, const scene::Scene& scene, 
   yaml << YAML::Key << "ranks" << YAML::Value << partition.first_number.size() - 1;
   yaml << YAML::Key << "nodes" << YAML::Value << network.position.size();
   yaml << YAML::Key << "elements" << YAML::Value << network.elements.size();
-  yaml << YAML::Key << "bodies" << YAML::Value << 0;
-  yaml << YAML::Key << "unknowns" << YAML::Value << 3 * (network.position.size() - network.prescribed.size());
+  yaml << YAML::Key << "bodies" << YAML::Value << network.bodies.size();
+  yaml << YAML::Key << "unknowns" << YAML::Value << network.unknowns();
   emit_partition(yaml, partition);
   emit_solution(yaml, report);
   yaml << YAML::Key << "peak_memory_MB" << YAML::Value << YAML::BeginMap;

@@ -182,10 +182,8 @@ private:
     report_.status = "finished";
     if (verdict == solve::Verdict::stopped) report_.status = "stopped";
     if (verdict == solve::Verdict::failed) {
-      const int element = dynamics_->failed_element();
       report_.status = "failed";
-      report_.message = fmt::format("at t = {:.9g} s the solver could not go on near cable {}: {}", report_.reached,
-                                    network_.element_name(element), dynamics_->failure());
+      report_.message = fmt::format("at t = {:.9g} s the solver could not go on {}", report_.reached, explanation());
     }
     report_.scheme = scheme_name(time_, rule_);
     report_.linear_solver = dynamics_->linear_solver();
@@ -194,14 +192,34 @@ private:
     write_report(directory_ / "run.yaml", scene_, network_, partition_, report_, PETSC_COMM_WORLD);
     if (rank_ == 0) fmt::print("results in {}: open cables.xmf in ParaView\n", directory_.string());
     if (verdict != solve::Verdict::failed) return 0;
-    const bool conserving = time_.scheme == scene::Scheme::energy_momentum;
     if (rank_ == 0)
-      fmt::print(stderr,
-                 "cablenet: error: {}. The state at that time is saved as the last frame in {}. Try a smaller "
-                 "time.step or {}\n",
-                 report_.message, directory_.string(),
-                 conserving ? "some axial_damping" : "scheme: energy_momentum, or a smaller spectral_radius");
+      fmt::print(stderr, "cablenet: error: {}. The state at that time is saved as the last frame in {}. {}\n",
+                 report_.message, directory_.string(), advice());
     return 3;
+  }
+
+  bool is_singular_attitude() const {
+    return failed_.left_domain &&
+           network_.bodies[static_cast<std::size_t>(failed_.body)].properties.rotation == bodies::Rotation::euler;
+  }
+
+  /// Where and why.
+  std::string explanation() {
+    failed_ = dynamics_->failed_place();
+    if (failed_.body < 0)
+      return fmt::format("near cable {}: {}", network_.element_name(failed_.element), dynamics_->failure());
+    const std::string& name = network_.bodies[static_cast<std::size_t>(failed_.body)].name;
+    if (is_singular_attitude())
+      return fmt::format("at body {}: its pitch comes to 90 degrees, where roll and yaw cannot be told apart", name);
+    if (failed_.left_domain) return fmt::format("at body {}: it turns by half a turn within a step", name);
+    return fmt::format("at body {}: {}", name, dynamics_->failure());
+  }
+
+  std::string advice() const {
+    if (is_singular_attitude()) return "Give the body rotation: quaternion, the default, which has no such attitude";
+    return fmt::format("Try a smaller time.step or {}", time_.scheme == scene::Scheme::energy_momentum
+                                                            ? "some axial_damping"
+                                                            : "scheme: energy_momentum, or a smaller spectral_radius");
   }
 
   const scene::Scene& scene_;
@@ -220,6 +238,7 @@ private:
   std::optional<output::Series> series_;
   std::optional<output::History> history_;   ///< rank 0
   Report report_;
+  solve::FailedPlace failed_;
   Report::Phase set_up_{"set_up"};
   Report::Phase solving_{"solve"};
   Report::Phase writing_{"output"};

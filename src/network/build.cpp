@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "bodies.hpp"
 #include "cablenet/base/errors.hpp"
 #include "cablenet/network/shape.hpp"
 
@@ -65,10 +66,14 @@ private:
   std::vector<std::vector<double>> taps_;   ///< per cable, arc lengths
   std::vector<std::vector<double>> arcs_;   ///< per cable, of its nodes; empty until laid
   std::vector<bool> prescribed_;
+  AttachmentNodes attachment_nodes_;
 };
 
 void Builder::number_nodes() {
-  std::int64_t nodes = static_cast<std::int64_t>(scene_.points.size());
+  network_.position.resize(scene_.points.size(), Vector3::Zero());
+  network_.velocity.resize(scene_.points.size(), Vector3::Zero());
+  attachment_nodes_ = add_bodies(scene_, network_);
+  std::int64_t nodes = static_cast<std::int64_t>(network_.position.size());
   std::int64_t elements = 0;
   for (const auto& net : scene_.nets) {
     first_net_node_.push_back(static_cast<int>(nodes));
@@ -83,8 +88,8 @@ void Builder::number_nodes() {
   if (3 * std::max(nodes, elements) > std::numeric_limits<int>::max())
     throw InputError(
         fmt::format("{}: {} nodes are more than this build's 32-bit numbers can count", scene_.file, nodes));
-  network_.position.assign(static_cast<std::size_t>(nodes), Vector3::Zero());
-  network_.velocity.assign(static_cast<std::size_t>(nodes), Vector3::Zero());
+  network_.position.resize(static_cast<std::size_t>(nodes), Vector3::Zero());
+  network_.velocity.resize(static_cast<std::size_t>(nodes), Vector3::Zero());
   prescribed_.assign(static_cast<std::size_t>(nodes), false);
   network_.gravity = scene_.gravity;
   for (const auto& type : scene_.cable_types)
@@ -152,14 +157,15 @@ int Builder::cable_node(std::size_t index, int k) {
 }
 
 int Builder::end_node(const scene::CableEnd& end) {
-  return std::visit(Overloaded{[](const scene::PointEnd& point) { return point.point; },
-                               [&](const scene::NetEnd& net) { return net_node(net.net, net.node[0], net.node[1]); },
-                               [&](const scene::BodyEnd& end_on_body) { return end_on_body.body; },
-                               [&](const scene::TapEnd& tap) {
-                                 lay_cable(at(tap.cable));
-                                 return cable_node(at(tap.cable), node_at(arcs_[at(tap.cable)], tap.at));
-                               }},
-                    end);
+  return std::visit(
+      Overloaded{[](const scene::PointEnd& point) { return point.point; },
+                 [&](const scene::NetEnd& net) { return net_node(net.net, net.node[0], net.node[1]); },
+                 [&](const scene::BodyEnd& body) { return attachment_nodes_[at(body.body)][at(body.attachment)]; },
+                 [&](const scene::TapEnd& tap) {
+                   lay_cable(at(tap.cable));
+                   return cable_node(at(tap.cable), node_at(arcs_[at(tap.cable)], tap.at));
+                 }},
+      end);
 }
 
 void Builder::lay_cable(std::size_t index) {
@@ -274,12 +280,5 @@ void Builder::check() const {
 }   // namespace
 
 Network build_network(const scene::Scene& scene) { return Builder(scene).build(); }
-
-std::string Network::element_name(int element) const {
-  const auto after = std::upper_bound(spans.begin(), spans.end(), element,
-                                      [](int e, const Span& span) { return e < span.first_element; });
-  const Span& span = *(after - 1);
-  return fmt::format("{}, element {} of {}", span.name, element - span.first_element + 1, span.elements);
-}
 
 }   // namespace cablenet::network

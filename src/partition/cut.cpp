@@ -79,16 +79,17 @@ private:
 /// Cuts again and again with the costs that the last cut has brought about, and keeps the best.
 class Search {
 public:
-  Search(const Graph& graph, int parts) : graph_(graph), parts_(parts), cutter_(graph) {}
+  Search(const Graph& graph, int parts, const std::vector<int>& work)
+      : graph_(graph), parts_(parts), work_(work), cutter_(graph) {}
 
   std::vector<int> run() {
     const auto ways = cutter_.ways(parts_);
-    const std::vector<int> alike(at(graph_.vertices()), 1);
-    if (count_loops(graph_) > loops_of_net) return cutter_.cut(alike, parts_, ways.front());
+    const std::vector<int> first = work_.empty() ? std::vector<int>(at(graph_.vertices()), 1) : work_;
+    if (count_loops(graph_) > loops_of_net) return cutter_.cut(first, parts_, ways.front());
     // Two parts of a tree have interface on one side alone.
     const int cuts = parts_ == 2 ? 1 : most_cuts;
     for (const auto way : ways) {
-      std::vector<int> cost = alike;
+      std::vector<int> cost = first;
       for (int repetition = 0; repetition < cuts; ++repetition) cost = try_cut(cutter_.cut(cost, parts_, way));
       if (imbalance_ < good_imbalance) break;
     }
@@ -104,7 +105,7 @@ private:
   /// @returns the cost of every vertex
   std::vector<int> try_cut(std::vector<int> part) {
     const std::vector<bool> interface = find_interface(graph_, part);
-    std::vector<int> cost = step_cost(graph_, interface);
+    std::vector<int> cost = step_cost(graph_, interface, work_);
     std::vector<long> sums(at(parts_), 0);
     for (std::size_t v = 0; v < part.size(); ++v) sums[at(part[v])] += cost[v];
     const long largest = *std::max_element(sums.begin(), sums.end());
@@ -122,6 +123,7 @@ private:
 
   const Graph& graph_;
   int parts_;
+  const std::vector<int>& work_;
   Cutter cutter_;
   std::vector<int> best_;
   std::pair<long, long> lowest_{std::numeric_limits<long>::max(),
@@ -131,10 +133,10 @@ private:
 
 }   // namespace
 
-std::vector<int> cut_network(const Graph& graph, int parts) {
+std::vector<int> cut_network(const Graph& graph, int parts, const std::vector<int>& work) {
   std::vector<int> part(at(graph.vertices()), 0);
   if (parts == 1) return part;
-  if (parts < graph.vertices()) return Search(graph, parts).run();
+  if (parts < graph.vertices()) return Search(graph, parts, work).run();
   std::iota(part.begin(), part.end(), 0);
   return part;
 }
@@ -166,10 +168,13 @@ std::vector<bool> find_interface(const Graph& graph, const std::vector<int>& par
   return interface;
 }
 
-std::vector<int> step_cost(const Graph& graph, const std::vector<bool>& interface) {
+std::vector<int> step_cost(const Graph& graph, const std::vector<bool>& interface, const std::vector<int>& work) {
   const std::vector<bool> stays = unpeeled(graph, interface);
   std::vector<int> cost(interface.size());
-  for (std::size_t v = 0; v < cost.size(); ++v) cost[v] = stays[v] && !interface[v] ? filled_cost : usual_cost;
+  for (std::size_t v = 0; v < cost.size(); ++v) {
+    cost[v] = stays[v] && !interface[v] ? filled_cost : usual_cost;
+    if (!work.empty()) cost[v] *= work[v];
+  }
   return cost;
 }
 

@@ -1,6 +1,8 @@
 #include "cablenet/partition/local_network.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <unordered_set>
 
 namespace cablenet::partition {
 namespace {
@@ -11,27 +13,43 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 class Extraction {
 public:
   Extraction(const network::Network& network, const Partition& partition, int rank)
-      : network_(network), partition_(partition), rank_(rank), local_of_(network.position.size(), -1) {}
+      : network_(network), partition_(partition), rank_(rank), local_of_(network.position.size(), -1) {
+    if (network.carried.empty()) return;
+    anchor_.resize(network.position.size());
+    std::iota(anchor_.begin(), anchor_.end(), 0);
+    for (const auto& carried : network.carried) anchor_[at(carried.node)] = network.bodies[at(carried.body)].node;
+  }
 
   LocalNetwork extract() {
+    here_.blocks = partition_.blocks;
     add_owned();
     find_elements();
+    find_links();
     add_ghosts();
     add_prescribed();
-    for (const auto* group : {&inner_, &rim_, &copies_}) add_elements(*group);
+    add_bodies();
+    for (const auto* group : {&inner_, &rim_, &attached_, &attached_copies_, &copies_}) add_elements(*group);
+    for (const auto& [node, stiffness] : links_)
+      here_.links.push_back({{local_of_[at(node[0])], local_of_[at(node[1])]}, stiffness});
     here_.inner_elements = static_cast<int>(inner_.size());
-    here_.own_elements = static_cast<int>(inner_.size() + rim_.size());
+    here_.attached.first = here_.inner_elements + static_cast<int>(rim_.size());
+    here_.own_elements = here_.attached.first + static_cast<int>(attached_.size());
+    here_.attached.last = here_.own_elements + static_cast<int>(attached_copies_.size());
     for (const auto& load : network_.loads)
       if (local_of_[at(load.node)] >= 0 && here_.primary[at(local_of_[at(load.node)])])
         here_.loads.push_back({local_of_[at(load.node)], load.mass, load.force});
     here_.materials = network_.materials;
     here_.gravity = network_.gravity;
-    here_.blocks = partition_.blocks;
     here_.interface = partition_.interface;
     return std::move(here_);
   }
 
 private:
+  /// The node whose unknowns move this one.
+  int anchor(int node) const { return anchor_.empty() ? node : anchor_[at(node)]; }
+  bool is_carried(int node) const { return anchor(node) != node; }
+  bool is_owned(int node) const { return local_of_[at(anchor(node))] >= 0; }
+
   void add_node(int node, bool primary) {
     local_of_[at(node)] = here_.nodes++;
     here_.scene_node.push_back(node);
@@ -40,16 +58,17 @@ private:
     here_.velocity.push_back(network_.velocity[at(node)]);
   }
 
-  /// Calls visit(node) for each element's free ends on other ranks than its other end.
+  /// Calls visit(node) for each element's and link's free ends on other ranks than its other end.
   template <class Visit>
   void for_each_cut_end(Visit&& visit) const {
-    for (const auto& element : network_.elements) {
-      const auto [a, b] = element.node;
-      if (partition_.solver_number[at(a)] < 0 || partition_.solver_number[at(b)] < 0) continue;
-      if (partition_.node_owner[at(a)] == partition_.node_owner[at(b)]) continue;
+    const auto visit_ends = [&](int a, int b) {
+      if (partition_.solver_number[at(a)] < 0 || partition_.solver_number[at(b)] < 0) return;
+      if (partition_.node_owner[at(a)] == partition_.node_owner[at(b)]) return;
       visit(a);
       visit(b);
-    }
+    };
+    for (const auto& element : network_.elements) visit_ends(element.node[0], element.node[1]);
+    for (const auto& link : network_.links) visit_ends(link.node[0], link.node[1]);
   }
 
   void add_owned() {
@@ -58,9 +77,12 @@ private:
     here_.owned = partition_.first_number[at(rank_) + 1] - here_.first_number;
     std::vector<int> in_order(at(here_.owned));
     for (std::size_t node = 0; node < partition_.solver_number.size(); ++node)
-      if (partition_.solver_number[node] >= 0 && partition_.node_owner[node] == rank_)
+      if (partition_.solver_number[node] >= 0 && partition_.node_owner[node] == rank_ &&
+          !is_carried(static_cast<int>(node)))
         in_order[at(partition_.solver_number[node] - here_.first_number)] = static_cast<int>(node);
     for (const int node : in_order) add_node(node, true);
+    const int begin = here_.blocks.begin(here_.first_number);
+    for (int i = 0; i <= here_.owned; ++i) here_.begin.push_back(here_.blocks.begin(here_.first_number + i) - begin);
     here_.interior = here_.owned;
     for (const int number : partition_.interface.number)
       if (number >= here_.first_number && number < here_.first_number + here_.owned) --here_.interior;
@@ -69,13 +91,25 @@ private:
   void find_elements() {
     for (std::size_t e = 0; e < network_.elements.size(); ++e) {
       const auto [a, b] = network_.elements[e].node;
-      const int owned = (local_of_[at(a)] >= 0 ? 1 : 0) + (local_of_[at(b)] >= 0 ? 1 : 0);
+      const int owned = (is_owned(a) ? 1 : 0) + (is_owned(b) ? 1 : 0);
       const bool mine = partition_.element_owner[e] == rank_;
-      if (owned > 0 || mine) (owned == 2 ? inner_ : mine ? rim_ : copies_).push_back(e);
+      if (owned == 0 && !mine) continue;
+      if (is_carried(a) || is_carried(b))
+        (mine ? attached_ : attached_copies_).push_back(e);
+      else
+        (owned == 2 ? inner_ : mine ? rim_ : copies_).push_back(e);
     }
     // In the order of their nodes, so that the loop over elements walks through memory.
     std::stable_sort(inner_.begin(), inner_.end(),
                      [this](std::size_t e, std::size_t f) { return first_node(e) < first_node(f); });
+  }
+
+  void find_links() {
+    for (const bool own : {true, false})
+      for (const auto& link : network_.links)
+        if (is_owned(link.node[0]) == own && (own || is_owned(link.node[1]))) links_.push_back(link);
+    here_.own_links = static_cast<int>(
+        std::count_if(links_.begin(), links_.end(), [this](const auto& link) { return is_owned(link.node[0]); }));
   }
 
   int first_node(std::size_t e) const {
@@ -84,15 +118,19 @@ private:
   }
 
   void add_ghosts() {
-    for (const auto* group : {&rim_, &copies_})
+    const auto add = [this](int carried_or_not) {
+      const int node = anchor(carried_or_not);
+      if (partition_.solver_number[at(node)] < 0 || local_of_[at(node)] >= 0) return;
+      add_node(node, false);
+      here_.ghost_number.push_back(partition_.solver_number[at(node)]);
+      here_.ghost_owner.push_back(partition_.node_owner[at(node)]);
+      ++here_.ghosts;
+    };
+    for (const auto* group : {&rim_, &attached_, &attached_copies_, &copies_})
       for (const std::size_t e : *group)
-        for (const int node : network_.elements[e].node)
-          if (partition_.solver_number[at(node)] >= 0 && local_of_[at(node)] < 0) {
-            add_node(node, false);
-            here_.ghost_number.push_back(partition_.solver_number[at(node)]);
-            here_.ghost_owner.push_back(partition_.node_owner[at(node)]);
-            ++here_.ghosts;
-          }
+        for (const int node : network_.elements[e].node) add(node);
+    for (const auto& link : links_)
+      for (const int node : link.node) add(node);
     place_sent_nodes();
   }
 
@@ -114,8 +152,9 @@ private:
 
   void add_prescribed() {
     std::vector<bool> touched(network_.position.size(), false);
-    for (const std::size_t e : rim_)
-      for (const int node : network_.elements[e].node) touched[at(node)] = true;
+    for (const auto* group : {&rim_, &attached_})
+      for (const std::size_t e : *group)
+        for (const int node : network_.elements[e].node) touched[at(node)] = true;
     for (const auto& held : network_.prescribed) {
       const bool primary = partition_.node_owner[at(held.node)] == rank_;
       if (!primary && !touched[at(held.node)]) continue;
@@ -124,11 +163,40 @@ private:
     }
   }
 
+  /// A body of another rank carries only the nodes that are at elements and links here.
+  void add_bodies() {
+    std::unordered_set<int> touched;
+    for (const auto* group : {&attached_, &attached_copies_})
+      for (const std::size_t e : *group)
+        touched.insert(network_.elements[e].node.begin(), network_.elements[e].node.end());
+    for (const auto& link : links_) touched.insert(link.node[1]);
+    for (const bool own : {true, false})
+      for (std::size_t b = 0; b < network_.bodies.size(); ++b)
+        if (const int node = local_of_[at(network_.bodies[b].node)]; node >= 0 && (node < here_.owned) == own)
+          add_body(static_cast<int>(b), node, touched);
+  }
+
+  void add_body(int index, int node, const std::unordered_set<int>& touched) {
+    const network::Body& body = network_.bodies[at(index)];
+    const bool own = node < here_.owned;
+    LocalBody local{node, index, body.properties, body.start, static_cast<int>(here_.carried.size()), 0};
+    for (int k = body.first_carried; k < body.first_carried + body.carried; ++k) {
+      const network::CarriedNode& carried = network_.carried[at(k)];
+      if (!own && !touched.contains(carried.node)) continue;
+      add_node(carried.node, own);
+      here_.carried.push_back({local_of_[at(carried.node)], static_cast<int>(here_.bodies.size()), carried.offset});
+      ++local.carried;
+    }
+    if (own) ++here_.own_bodies;
+    here_.bodies.push_back(local);
+  }
+
   void add_elements(const std::vector<std::size_t>& group) {
+    const auto place = [this](int node) { return node < here_.owned ? here_.begin[at(node)] : -1; };
     for (const std::size_t e : group) {
       const auto& element = network_.elements[e];
-      here_.elements.push_back(
-          {{local_of_[at(element.node[0])], local_of_[at(element.node[1])]}, element.material, element.length});
+      const int a = local_of_[at(element.node[0])], b = local_of_[at(element.node[1])];
+      here_.elements.push_back({{a, b}, {place(a), place(b)}, element.material, element.length});
       here_.scene_element.push_back(static_cast<int>(e));
     }
   }
@@ -137,7 +205,10 @@ private:
   const Partition& partition_;
   int rank_;
   std::vector<int> local_of_;
+  std::vector<int> anchor_;                         ///< per scene node; empty if none is carried
   std::vector<std::size_t> inner_, rim_, copies_;   ///< elements: between owned nodes, other own ones, another rank's
+  std::vector<std::size_t> attached_, attached_copies_;   ///< those at carried nodes: own ones, another rank's
+  std::vector<network::Link> links_;
   LocalNetwork here_;
 };
 

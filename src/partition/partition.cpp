@@ -11,6 +11,26 @@ namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
+/// Nodes that move on their own.
+struct FreeNodes {
+  std::vector<int> node;     ///< per vertex
+  std::vector<int> vertex;   ///< per node: its own or that of the body that carries it; -1 if prescribed
+};
+
+FreeNodes find_free_nodes(const network::Network& network) {
+  FreeNodes free{{}, std::vector<int>(network.position.size(), 0)};
+  for (const auto& held : network.prescribed) free.vertex[at(held.node)] = -1;
+  for (const auto& carried : network.carried) free.vertex[at(carried.node)] = -1;
+  for (std::size_t i = 0; i < free.vertex.size(); ++i)
+    if (free.vertex[i] == 0) {
+      free.vertex[i] = static_cast<int>(free.node.size());
+      free.node.push_back(static_cast<int>(i));
+    }
+  for (const auto& carried : network.carried)
+    free.vertex[at(carried.node)] = free.vertex[at(network.bodies[at(carried.body)].node)];
+  return free;
+}
+
 /// The graph whose vertices are the nodes with vertex[node] >= 0 and whose edges are the elements between them.
 Graph node_graph(const network::Network& network, const std::vector<int>& vertex, int vertices) {
   Graph graph;
@@ -21,6 +41,7 @@ Graph node_graph(const network::Network& network, const std::vector<int>& vertex
       const int b = vertex[at(element.node[1])];
       if (a >= 0 && b >= 0 && a != b) visit(a, b);
     }
+    for (const auto& link : network.links) visit(vertex[at(link.node[0])], vertex[at(link.node[1])]);
   };
   for_each_edge([&](int a, int b) { ++graph.first[at(a) + 1], ++graph.first[at(b) + 1]; });
   std::partial_sum(graph.first.begin(), graph.first.end(), graph.first.begin());
@@ -52,12 +73,12 @@ struct Cut {
   Graph coupled;                 ///< by index into order
 };
 
-Cut make_cut(const Graph& graph, MPI_Comm communicator) {
+Cut make_cut(const Graph& graph, const std::vector<int>& work, MPI_Comm communicator) {
   int rank = 0, ranks = 1;
   MPI_Comm_rank(communicator, &rank);
   MPI_Comm_size(communicator, &ranks);
   Cut cut;
-  cut.part = rank == 0 ? cut_network(graph, ranks) : std::vector<int>(at(graph.vertices()));
+  cut.part = rank == 0 ? cut_network(graph, ranks, work) : std::vector<int>(at(graph.vertices()));
   MPI_Bcast(cut.part.data(), graph.vertices(), MPI_INT, 0, communicator);
   cut.interface = find_interface(graph, cut.part);
   for (int v = 0; v < graph.vertices(); ++v)
@@ -107,6 +128,35 @@ void number_nodes(const std::vector<int>& order, const std::vector<int>& free_no
     partition.first_number[r] = std::max(partition.first_number[r], partition.first_number[r - 1]);
 }
 
+/// Carried nodes go where their bodies go.
+void number_carried(const network::Network& network, Partition& partition) {
+  for (const auto& carried : network.carried) {
+    const int body = network.bodies[at(carried.body)].node;
+    partition.node_owner[at(carried.node)] = partition.node_owner[at(body)];
+    partition.solver_number[at(carried.node)] = partition.solver_number[at(body)];
+  }
+}
+
+Blocks make_blocks(const network::Network& network, const Partition& partition) {
+  std::vector<std::pair<int, int>> large;
+  for (const auto& body : network.bodies)
+    if (const int more = bodies::rotation_unknowns(body.properties.rotation); more > 0)
+      large.emplace_back(partition.solver_number[at(body.node)], 3 + more);
+  std::sort(large.begin(), large.end());
+  return {partition.first_number.back(), std::move(large)};
+}
+
+/// Nodes' worth that a body that turns, and one of its cables' ends, take in a step.
+constexpr int body_work = 8, attachment_work = 2;
+
+std::vector<int> work_of(const network::Network& network, const FreeNodes& free) {
+  std::vector<int> work(free.node.size(), 1);
+  for (const auto& body : network.bodies)
+    if (bodies::rotation_unknowns(body.properties.rotation) > 0)
+      work[at(free.vertex[at(body.node)])] += body_work + attachment_work * body.carried;
+  return work;
+}
+
 void assign_elements(const network::Network& network, Partition& partition) {
   // An element without free nodes goes to a rank that has rows, so that every rank with elements has a voice in norms.
   const auto first_rank = std::upper_bound(partition.first_number.begin(), partition.first_number.end(), 0);
@@ -132,23 +182,16 @@ Partition make_partition(const network::Network& network, MPI_Comm communicator)
   int rank = 0, ranks = 1;
   MPI_Comm_rank(communicator, &rank);
   MPI_Comm_size(communicator, &ranks);
-  std::vector<int> vertex(network.position.size(), 0), free_nodes;
-  for (const auto& held : network.prescribed) vertex[at(held.node)] = -1;
-  for (std::size_t i = 0; i < vertex.size(); ++i)
-    if (vertex[i] == 0) {
-      vertex[i] = static_cast<int>(free_nodes.size());
-      free_nodes.push_back(static_cast<int>(i));
-    }
-  Graph graph = node_graph(network, vertex, static_cast<int>(free_nodes.size()));
-  vertex = {};
+  const FreeNodes free = find_free_nodes(network);
   Partition partition;
-  graph = simple_graph(graph);
-  Cut cut = make_cut(graph, communicator);
-  number_nodes(all_orders(order_part(graph, cut, rank), graph.vertices(), communicator), free_nodes, cut.part, ranks,
+  const Graph graph = simple_graph(node_graph(network, free.vertex, static_cast<int>(free.node.size())));
+  Cut cut = make_cut(graph, work_of(network, free), communicator);
+  number_nodes(all_orders(order_part(graph, cut, rank), graph.vertices(), communicator), free.node, cut.part, ranks,
                network.position.size(), partition);
+  number_carried(network, partition);
+  partition.blocks = make_blocks(network, partition);
   partition.interface.graph = std::move(cut.coupled);
-  for (const int v : cut.order) partition.interface.number.push_back(partition.solver_number[at(free_nodes[at(v)])]);
-  partition.blocks = Blocks(graph.vertices(), {});
+  for (const int v : cut.order) partition.interface.number.push_back(partition.solver_number[at(free.node[at(v)])]);
   assign_elements(network, partition);
   return partition;
 }

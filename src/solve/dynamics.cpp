@@ -25,6 +25,11 @@ constexpr double relative_force_tolerance = 1e-12;
 /// How often the largest coordinate, which rounding depends on, is looked up.
 constexpr long steps_between_norms = 64;
 
+/// Larger than any residual.
+constexpr double unnatural = 1e300;
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
 }   // namespace
 
 Dynamics::Dynamics(system::Assembler& assembler, const scene::Time& time, double output_interval)
@@ -104,7 +109,7 @@ Instant Dynamics::instant() const { return {schedule_.time(), counts_.steps, x_,
 /// M a0 = f(t0, x0, v0).
 void Dynamics::solve_initial_acceleration() {
   assembler_.force(time_.start, x_, v_, x0_);
-  assembler_.mass_matrix(tangent_);
+  assembler_.mass_matrix(x_, v_, tangent_);
   tangent_.publish();
   check(KSPSetOperators(ksp_, tangent_.matrix(), tangent_.matrix()));
   check(KSPSolve(ksp_, x0_, start_acceleration_));
@@ -153,6 +158,7 @@ bool Dynamics::step(double dt) {
   check(TSSetTimeStep(stepper_, dt));
   attempts_ = 0;
   outside_domain_ = -1;
+  outside_body_ = -1;
   check(TSStep(stepper_));
   TSConvergedReason reason = TS_CONVERGED_ITERATING;
   check(TSGetConvergedReason(stepper_, &reason));
@@ -177,7 +183,7 @@ bool Dynamics::step(double dt) {
 void Dynamics::accept(double t, double taken, bool retried) {
   last_step_ = taken;
   ++counts_.steps;
-  assembler_.add_work({t, taken, alpha_.alpha_f});
+  assembler_.end_step({t, taken, alpha_.alpha_f}, x_, v_);
   update_acceleration(taken);
   PetscReal next = 0;
   check(TSGetTimeStep(stepper_, &next));
@@ -211,27 +217,33 @@ void Dynamics::explain_failure() {
   if (pivots.negative > 0) failure_ += fmt::format("; the tangent has {} negative pivots", pivots.negative);
 }
 
-int Dynamics::failed_element() {
+FailedPlace Dynamics::failed_place() {
   Vec r = nullptr;
   check(SNESGetFunction(snes_, &r, nullptr, nullptr));
   const auto& network = assembler_.network();
   const double* values = nullptr;
   check(VecGetArrayRead(r, &values));
+  // Bodies are counted downwards from -1.
   struct {
     double size;
-    int element;
+    int place;
   } worst{-1, 0};
+  const auto look_at = [&](int node, int unknowns, int place) {
+    if (node >= network.owned) return;
+    double size = Eigen::Map<const Eigen::VectorXd>(values + network.begin[at(node)], unknowns).norm();
+    if (!std::isfinite(size) || network.number(node) == failed_node_) size = unnatural;
+    if (size > worst.size) worst = {size, place};
+  };
   for (std::size_t i = 0; i < network.elements.size(); ++i)
-    for (const int node : network.elements[i].node)
-      if (node < network.owned) {
-        double size = Eigen::Map<const Vector3>(values + 3 * node).norm();
-        if (!std::isfinite(size) || network.number(node) == failed_node_) size = 1e300;
-        if (size > worst.size) worst = {size, network.scene_element[i]};
-      }
+    for (const int node : network.elements[i].node) look_at(node, 3, network.scene_element[i]);
+  for (const auto& body : network.bodies)
+    look_at(body.node, 3 + bodies::rotation_unknowns(body.properties.rotation), -1 - body.body);
   check(VecRestoreArrayRead(r, &values));
-  if (outside_domain_ >= 0) worst = {1e301, outside_domain_};
+  if (outside_domain_ >= 0) worst = {2 * unnatural, outside_domain_};
+  if (outside_body_ >= 0) worst = {3 * unnatural, -1 - outside_body_};
   MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, assembler_.communicator());
-  return worst.element;
+  if (worst.place >= 0) return {worst.place, -1, false};
+  return {-1, -1 - worst.place, worst.size > 2 * unnatural};
 }
 
 std::string Dynamics::linear_solver() const { return describe(ksp_, linear_); }

@@ -45,6 +45,7 @@ PetscErrorCode Dynamics::residual(TS, PetscReal, Vec x, Vec v, Vec a, Vec r, voi
   if (wants_tangent) run.tangent_at_ = petsc::state_of(x);
   if (!run.assembler_.residual(run.stage(), x, v, a, r, wants_tangent ? &request : nullptr)) {
     run.outside_domain_ = run.assembler_.coincident_element();
+    run.outside_body_ = run.assembler_.outside_body();
     // PETSc's own flag for this stays on one rank, and its line searches then leave the others waiting; a norm does
     // not.
     PetscInt count = 0;
@@ -57,8 +58,8 @@ PetscErrorCode Dynamics::residual(TS, PetscReal, Vec x, Vec v, Vec a, Vec r, voi
   PetscFunctionReturn(petsc::success);
 }
 
-PetscErrorCode Dynamics::jacobian(TS, PetscReal, Vec x, Vec v, Vec, PetscReal shift_v, PetscReal shift_a, Mat J, Mat P,
-                                  void* self) noexcept {
+PetscErrorCode Dynamics::jacobian(TS, PetscReal, Vec x, Vec v, Vec a, PetscReal shift_v, PetscReal shift_a, Mat J,
+                                  Mat P, void* self) noexcept {
   PetscFunctionBeginUser;
   auto& run = *static_cast<Dynamics*>(self);
   run.reuse_.note_computed();
@@ -66,7 +67,7 @@ PetscErrorCode Dynamics::jacobian(TS, PetscReal, Vec x, Vec v, Vec, PetscReal sh
     run.tangent_.set_identity(shift_a);
   } else {
     if (petsc::state_of(x) != run.tangent_at_)
-      run.assembler_.tangent(run.stage(), x, v, {run.tangent_, shift_v, shift_a});
+      run.assembler_.tangent(run.stage(), x, v, a, {run.tangent_, shift_v, shift_a});
     run.tangent_.publish();
   }
   run.tangent_at_ = {};

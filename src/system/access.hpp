@@ -12,6 +12,8 @@ struct Assembler::Access {
   Access(Assembler& assembler, Vec x, Vec v, Vec a, Vec r) : assembler_(assembler), x_(x), v_(v), a_(a), r_(r) {
     using petsc::check;
     data.owned = assembler.network_.owned;
+    data.begin = assembler.network_.begin.data();
+    data.ghost_rotations = assembler.ghost_rotations_.data();
     data.outside = assembler.outside_.data();
     data.outside_r = assembler.outside_r_.data();
     check(VecGetArrayRead(x_, &data.x));
@@ -19,7 +21,7 @@ struct Assembler::Access {
     if (a_ != nullptr) check(VecGetArrayRead(a_, &data.a));
     if (r_ == nullptr) return;
     check(VecGetArrayWrite(r_, &data.r));
-    std::fill_n(data.r, 3 * std::ptrdiff_t{data.owned}, 0.0);
+    std::fill_n(data.r, assembler.network_.unknowns(), 0.0);
     std::fill(assembler.outside_r_.begin(), assembler.outside_r_.end(), 0.0);
   }
   Access(const Access&) = delete;
@@ -27,7 +29,7 @@ struct Assembler::Access {
   ~Access() { close(); }
 
   void begin_exchange() {
-    assembler_.ghosts_.begin(data.x, data.v, data.a, data.outside);
+    assembler_.ghosts_.begin(data.x, data.v, data.a, data.outside, data.ghost_rotations);
     exchanging_ = true;
   }
   void finish_exchange() {

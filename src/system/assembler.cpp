@@ -4,6 +4,8 @@
 #include <type_traits>
 
 #include "access.hpp"
+#include "attached_work.hpp"
+#include "body_set.hpp"
 #include "cablenet/petsc/object_state.hpp"
 #include "cablenet/petsc/phase.hpp"
 #include "element_loop.hpp"
@@ -26,10 +28,12 @@ Assembler::Assembler(partition::LocalNetwork network, ForceRule rule, MPI_Comm c
       communicator_(communicator),
       is_elastic_(std::all_of(network_.materials.begin(), network_.materials.end(), elements::is_elastic)),
       ghosts_(network_, communicator),
-      starts_(std::make_unique<Starts>()) {
+      starts_(std::make_unique<Starts>()),
+      bodies_(std::make_unique<BodySet>(network_)) {
   petsc::register_phases();
   outside_.resize(at(network_.nodes - network_.owned));
   outside_r_.resize(3 * outside_.size());
+  ghost_rotations_.resize(at(network_.ghosts));
   prescribed_.resize(network_.prescribed.size());
 }
 
@@ -38,8 +42,8 @@ Assembler::~Assembler() = default;
 Vector Assembler::make_vector() const {
   Vector vector;
   check(VecCreate(communicator_, vector.out()));
-  check(VecSetSizes(vector, 3 * network_.owned, 3 * network_.free_nodes));
-  check(VecSetBlockSize(vector, 3));
+  check(VecSetSizes(vector, network_.unknowns(), network_.all_unknowns()));
+  if (network_.blocks.uniform()) check(VecSetBlockSize(vector, 3));
   check(VecSetFromOptions(vector));
   return vector;
 }
@@ -48,7 +52,8 @@ TangentMatrix Assembler::make_tangent() const {
   const bool rates = std::any_of(network_.materials.begin(), network_.materials.end(),
                                  [](const auto& material) { return material.axial_damping > 0; });
   const bool two_ended = rule_.scheme == scene::Scheme::energy_momentum;
-  const bool symmetric = rule_.tangent == elements::Tangent::secant || (!two_ended && !rates);
+  const bool nodes_alone = rule_.tangent == elements::Tangent::secant || (!two_ended && !rates);
+  const bool symmetric = nodes_alone && network_.blocks.uniform();
   return {network_, symmetric, communicator_};
 }
 
@@ -56,33 +61,15 @@ void Assembler::fill_initial(Vec x, Vec v) const {
   for (const auto& [vector, values] : {std::pair{x, &network_.position}, std::pair{v, &network_.velocity}}) {
     double* array = nullptr;
     check(VecGetArrayWrite(vector, &array));
-    for (int i = 0; i < network_.owned; ++i) as_vector(array + 3 * std::ptrdiff_t{i}) = (*values)[at(i)];
+    for (int i = 0; i < network_.owned; ++i) as_vector(array + network_.begin[at(i)]) = (*values)[at(i)];
+    for (int b = 0; b < network_.own_bodies; ++b) {
+      const partition::LocalBody& body = network_.bodies[at(b)];
+      const bodies::Vector4& rotation = vector == x ? body.start.y : body.start.dy;
+      const int unknowns = bodies::rotation_unknowns(body.properties.rotation);
+      std::copy_n(rotation.data(), unknowns, array + network_.begin[at(body.node)] + 3);
+    }
     check(VecRestoreArrayWrite(vector, &array));
   }
-}
-
-void Assembler::set_prescribed(const Stage& s) {
-  const bool new_end = s.dt != prescribed_dt_;
-  const bool midpoint = rule_.scheme == scene::Scheme::energy_momentum;
-  prescribed_dt_ = s.dt;
-  for (std::size_t i = 0; i < prescribed_.size(); ++i) {
-    NodeStep& step = prescribed_[i];
-    const auto& [node, motion] = network_.prescribed[i];
-    if (new_end) step.end = motion.at(s.t + s.dt);
-    const auto& [x0, v0, a0] = step.start;
-    const auto& [x1, v1, a1] = step.end;
-    NodeMotion& here = outside_[at(node - network_.owned)];
-    as_vector(here.x) = x0 + s.alpha_f * (x1 - x0);
-    as_vector(here.v) = v0 + s.alpha_f * (v1 - v0);
-    // The free nodes' a_a stands for the stage's time t + alpha_f dt.  With the mid-point rule it is (v1 - v0)/dt:
-    // taken alike here, the energy of fixed and uniformly moved points balances exactly.
-    as_vector(here.a) = midpoint && s.dt > 0 ? Vector3((v1 - v0) / s.dt) : Vector3(a0 + s.alpha_f * (a1 - a0));
-  }
-}
-
-void Assembler::start_prescribed(double t) {
-  prescribed_dt_ = -1;
-  for (std::size_t i = 0; i < prescribed_.size(); ++i) prescribed_[i].start = network_.prescribed[i].motion.at(t);
 }
 
 template <class Visit>
@@ -103,14 +90,16 @@ void Assembler::visit_law(const Stage& stage, Visit&& visit) const {
 void Assembler::begin_step(double t, Vec x, Vec v) {
   Access access(*this, x, v, nullptr, nullptr);
   evaluated_ = {};
-  ghosts_.begin(access.data.x, access.data.v, nullptr, outside_.data());
+  access.begin_exchange();
   start_prescribed(t);
   for (std::size_t i = 0; i < prescribed_.size(); ++i) {
     NodeMotion& here = outside_[at(network_.prescribed[i].node - network_.owned)];
     as_vector(here.x) = prescribed_[i].start.x;
     as_vector(here.v) = prescribed_[i].start.v;
   }
-  ghosts_.end();
+  access.finish_exchange();
+  bodies_->begin_step(access.data);
+  bodies_->place({t, 0, 0}, false, access.data, nullptr);
   visit_law({}, [&](const auto& law) { record_starts(law, access); });
 }
 
@@ -120,7 +109,7 @@ void Assembler::record_starts(const Law&, const Access& access) {
     auto& starts = starts_->of<Law>(network_.elements.size());
     const auto record = [&](Range range, auto nodes) {
       for_each_element(network_, range, [&](std::size_t i, const partition::LocalElement& e) {
-        const auto [n1, n2] = e.node;
+        const int n1 = nodes.name(e, 0), n2 = nodes.name(e, 1);
         Vector3 w = Vector3::Zero();
         if constexpr (Law::general) w = difference(nodes.v(n2), nodes.v(n1));
         starts[i] = Law::start(network_.materials[at(e.material)], e.length, difference(nodes.x(n2), nodes.x(n1)), w);
@@ -134,7 +123,7 @@ void Assembler::record_starts(const Law&, const Access& access) {
 
 /// Elements between owned nodes first: the ghosts' motion arrives meanwhile.
 template <class Law, bool with_residual, bool with_tangent>
-bool Assembler::sweep(const Law& law, Access& access, const TangentRequest* request) {
+bool Assembler::sweep(const Law& law, const Stage& stage, Access& access, const TangentRequest* request) {
   const auto& starts = starts_->of<Law>(network_.elements.size());
   TangentTarget target{};
   if constexpr (with_tangent)
@@ -155,17 +144,64 @@ bool Assembler::sweep(const Law& law, Access& access, const TangentRequest* requ
   };
   bool in_domain = timed_visit({0, network_.inner_elements}, InnerNodes{access.data});
   access.finish_exchange();
-  const Range rim{network_.inner_elements, static_cast<int>(network_.elements.size())};
-  in_domain = timed_visit(rim, AnyNodes{access.data}) && in_domain;
+  in_domain = timed_visit({network_.inner_elements, network_.attached.first}, AnyNodes{access.data}) && in_domain;
+  if (!bodies_->empty()) in_domain = sweep_bodies<Law, with_tangent>(law, stage, access, request) && in_domain;
+  const Range copies{network_.attached.last, static_cast<int>(network_.elements.size())};
+  in_domain = timed_visit(copies, AnyNodes{access.data}) && in_domain;
   if constexpr (with_tangent) request->matrix.close();
   return in_domain;
 }
 
+/// Elements and links at the nodes that bodies carry.
+template <class Law, bool with_tangent>
+bool Assembler::sweep_bodies(const Law& law, const Stage& stage, Access& access, const TangentRequest* request) {
+  const petsc::Timer timer(access.has_residual() ? petsc::Phase::residual : petsc::Phase::tangent);
+  const AnyNodes nodes{access.data};
+  TangentTarget target{};
+  bodies::Seeds seeds{};
+  if constexpr (with_tangent) {
+    target = {request->matrix.values(), request->matrix.element_slots().data(), request->shift_v, request->shift_a};
+    seeds = {request->shift_x, request->shift_v, request->shift_a};
+  }
+  bool in_domain = bodies_->place(stage, conserves(stage), access.data, with_tangent ? &seeds : nullptr);
+  const AttachedBlocks blocks(network_, *bodies_, target);
+  const AttachedWork<Law, with_tangent> work{network_, law,    starts_->of<Law>(network_.elements.size()).data(),
+                                             nodes,    target, blocks};
+  in_domain = for_each_element(network_, network_.attached,
+                               [&](std::size_t i, const partition::LocalElement& e) {
+                                 if (work(i, e)) return true;
+                                 coincident_ = network_.scene_element[i];
+                                 return false;
+                               }) &&
+              in_domain;
+  for (std::size_t i = 0; i < network_.links.size(); ++i) {
+    const auto& [node, stiffness] = network_.links[i];
+    const Vector3 f = stiffness * difference(nodes.x(node[1]), nodes.x(node[0]));
+    add_attached_force(network_, nodes, node[0], -f);
+    add_attached_force(network_, nodes, node[1], f);
+    if constexpr (with_tangent)
+      blocks.write(node, request->matrix.link_slots()[i],
+                   {request->shift_x * stiffness * Matrix3::Identity(), Matrix3::Zero(), 0, 0});
+  }
+  return in_domain;
+}
+
+void Assembler::finish_bodies(Access& access, const TangentRequest* request) {
+  if (bodies_->empty()) return;
+  if (access.has_residual()) bodies_->add_forces(access.data);
+  if (request != nullptr) bodies_->write_tangent(access.data, request->matrix);
+}
+
 template <class Law>
-bool Assembler::run(const Law& law, Access& access, const TangentRequest* request) {
-  if (!access.has_residual()) return sweep<Law, false, true>(law, access, request);
-  return request == nullptr ? sweep<Law, true, false>(law, access, nullptr)
-                            : sweep<Law, true, true>(law, access, request);
+bool Assembler::run(const Law& law, const Stage& stage, Access& access, const TangentRequest* request) {
+  const auto sweep_all = [&] {
+    if (!access.has_residual()) return sweep<Law, false, true>(law, stage, access, request);
+    return request == nullptr ? sweep<Law, true, false>(law, stage, access, nullptr)
+                              : sweep<Law, true, true>(law, stage, access, request);
+  };
+  const bool in_domain = sweep_all();
+  finish_bodies(access, request);
+  return in_domain;
 }
 
 void Assembler::add_loads(Access& access, const TangentRequest* request) {
@@ -190,28 +226,30 @@ bool Assembler::residual(const Stage& stage, Vec x, Vec v, Vec a, Vec r, const T
   access.begin_exchange();
   set_prescribed(stage);
   bool in_domain = true;
-  visit_law(stage, [&](const auto& law) { in_domain = run(law, access, request); });
+  visit_law(stage, [&](const auto& law) { in_domain = run(law, stage, access, request); });
   add_loads(access, request);
   return in_domain;
 }
 
-void Assembler::tangent(const Stage& stage, Vec x, Vec v, const TangentRequest& request) {
-  Access access(*this, x, v, nullptr, nullptr);
+void Assembler::tangent(const Stage& stage, Vec x, Vec v, Vec a, const TangentRequest& request) {
+  Access access(*this, x, v, a, nullptr);
   if (petsc::state_of(x) != evaluated_ || stage != evaluated_stage_) {
     access.begin_exchange();
     set_prescribed(stage);
     evaluated_ = petsc::state_of(x);
     evaluated_stage_ = stage;
   }
-  visit_law(stage, [&](const auto& law) { run(law, access, &request); });
+  visit_law(stage, [&](const auto& law) { run(law, stage, access, &request); });
   add_loads(access, &request);
 }
 
-void Assembler::mass_matrix(TangentMatrix& mass) {
-  const Vector none = make_vector();
-  Access access(*this, none, none, nullptr, nullptr);
-  const TangentRequest request{mass, 0, 1};
-  run(NoLaw{}, access, &request);
+void Assembler::mass_matrix(Vec x, Vec v, TangentMatrix& mass) {
+  const Vector resting = make_vector();
+  evaluated_ = {};
+  Access access(*this, x, v, resting, nullptr);
+  access.begin_exchange();
+  const TangentRequest request{mass, 0, 1, 0};
+  run(NoLaw{}, {}, access, &request);
   add_loads(access, &request);
 }
 
@@ -222,26 +260,10 @@ void Assembler::force(double t, Vec x, Vec v, Vec force) {
   access.begin_exchange();
   start_prescribed(t);
   set_prescribed({t, 0, 0});
-  run(StageLaw<true>{rule_.tangent}, access, nullptr);
+  run(StageLaw<true>{rule_.tangent}, {t, 0, 0}, access, nullptr);
   add_loads(access, nullptr);
   access.close();
   check(VecScale(force, -1));
-}
-
-void Assembler::add_work(const Stage& s) {
-  const double stage_t = s.t + s.alpha_f * s.dt;
-  const double lag = s.t + 0.5 * s.dt - stage_t;
-  // The reaction is known at the stage; work wants it at mid-step.
-  const double slope = previous_stage_t_ < stage_t && lag != 0 ? lag / (stage_t - previous_stage_t_) : 0;
-  for (std::size_t i = 0; i < prescribed_.size(); ++i) {
-    NodeStep& step = prescribed_[i];
-    const Vector3 reaction = as_vector(outside_r_.data() + 3 * at(network_.prescribed[i].node - network_.owned));
-    const bool first = step.previous_reaction.isZero(0);
-    const Vector3 middle = first ? reaction : Vector3(reaction + slope * (reaction - step.previous_reaction));
-    work_ += middle.dot(step.end.x - step.start.x);
-    step.previous_reaction = reaction;
-  }
-  previous_stage_t_ = stage_t;
 }
 
 }   // namespace cablenet::system

@@ -10,11 +10,7 @@
 /// The loop over elements, and what an element does in it.
 namespace cablenet::system {
 
-/// Elements first .. last-1.
-struct Range {
-  int first;
-  int last;
-};
+using partition::Range;
 
 /// The program's one loop over elements.
 /// @param visit  bool(element index, element); false ends the loop
@@ -48,7 +44,17 @@ void put_block(const TangentTarget& target, const TangentMatrix::Slot& slot, dou
   put_row(to + 2 * slot.stride, slot.add, sign * K(2, 0), sign * K(2, 1), sign * K(2, 2) + m);
 }
 
-/// M (a + beta v) + (-f, +f) - weight/2 each, and its tangent; weight joins in as an acceleration.
+/// a + beta v of a node; weight joins in as an acceleration.
+template <class Law, class Nodes>
+Vector3 inertial(const partition::LocalNetwork& network, const Nodes& nodes, const elements::CableMaterial& material,
+                 int node) {
+  Vector3 q = Eigen::Map<const Vector3>(nodes.a(node));
+  if constexpr (Law::general) q += material.mass_damping * Eigen::Map<const Vector3>(nodes.v(node));
+  q.z() += network.gravity;
+  return q;
+}
+
+/// M (a + beta v) + (-f, +f) - weight/2 each, and its tangent.
 template <class Law, class Nodes, bool with_residual, bool with_tangent>
 struct ElementWork {
   const partition::LocalNetwork& network;
@@ -57,23 +63,17 @@ struct ElementWork {
   Nodes nodes;
   TangentTarget target;
 
-  using Const3 = Eigen::Map<const Vector3>;
-  Vector3 inertial(const elements::CableMaterial& material, int node) const {
-    Vector3 q = Const3(nodes.a(node));
-    if constexpr (Law::general) q += material.mass_damping * Const3(nodes.v(node));
-    q.z() += network.gravity;
-    return q;
-  }
   [[gnu::flatten]] bool operator()(std::size_t i, const partition::LocalElement& e) const {
     const elements::CableMaterial& material = network.materials[static_cast<std::size_t>(e.material)];
-    const auto [n1, n2] = e.node;
+    const int n1 = Nodes::name(e, 0), n2 = Nodes::name(e, 1);
     ElementStage stage{material, e.length, difference(nodes.x(n2), nodes.x(n1)), Vector3::Zero(), target.shift_v};
     if constexpr (Law::general) stage.w = difference(nodes.v(n2), nodes.v(n1));
     Vector3 f;
     Matrix3 K;
     if (!law.template evaluate<with_tangent>(starts[i], stage, f, K)) return false;
     if constexpr (with_residual) {
-      const Vector3 q1 = inertial(material, n1), q2 = inertial(material, n2);
+      const Vector3 q1 = inertial<Law>(network, nodes, material, n1);
+      const Vector3 q2 = inertial<Law>(network, nodes, material, n2);
       const elements::EndForces inertia = elements::cable_inertia(material, e.length, q1, q2);
       Eigen::Map<Vector3>(nodes.r(n1)) += inertia.on1 - f;
       Eigen::Map<Vector3>(nodes.r(n2)) += inertia.on2 + f;

@@ -1,6 +1,7 @@
 #include "cablenet/system/ghosts.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "cablenet/petsc/phase.hpp"
 
@@ -9,48 +10,92 @@ namespace {
 
 using petsc::check;
 
-void copy_or_zero(double* to, const double* from, int node) {
+void copy_or_zero(double* to, const double* from, int place, int count) {
   if (from == nullptr)
-    std::fill_n(to, 3, 0.0);
+    std::fill_n(to, count, 0.0);
   else
-    std::copy_n(from + 3 * static_cast<std::ptrdiff_t>(node), 3, to);
+    std::copy_n(from + place, count, to);
 }
 
 }   // namespace
 
-GhostExchange::GhostExchange(const partition::LocalNetwork& network, MPI_Comm communicator) : sent_(network.sent) {
+template <class Item>
+void GhostExchange::Broadcast<Item>::set_up(MPI_Comm communicator, std::size_t roots, std::vector<PetscInt> leaves,
+                                            std::vector<PetscSFNode> places) {
+  sent.resize(roots);
+  check(PetscSFCreate(communicator, forest.out()));
+  check(PetscSFSetGraph(forest, static_cast<PetscInt>(roots), static_cast<PetscInt>(places.size()), leaves.data(),
+                        PETSC_COPY_VALUES, places.data(), PETSC_COPY_VALUES));
+  check(PetscSFSetUp(forest));
+  MPI_Type_contiguous(sizeof(Item) / sizeof(double), MPI_DOUBLE, unit.out());
+  MPI_Type_commit(unit.out());
+}
+
+template <class Item>
+void GhostExchange::Broadcast<Item>::begin(Item* to) {
+  received = to;
+  check(PetscSFBcastBegin(forest, unit, sent.data(), received, MPI_REPLACE));
+}
+
+template <class Item>
+void GhostExchange::Broadcast<Item>::end() {
+  check(PetscSFBcastEnd(forest, unit, sent.data(), received, MPI_REPLACE));
+}
+
+GhostExchange::GhostExchange(const partition::LocalNetwork& network, MPI_Comm communicator) {
   int ranks = 1;
   MPI_Comm_size(communicator, &ranks);
   alone_ = ranks == 1;
+  with_bodies_ = !network.blocks.uniform();
   if (alone_) return;
-  buffer_.resize(sent_.size());
+  for (const int node : network.sent) places_.push_back(network.begin[static_cast<std::size_t>(node)]);
   std::vector<PetscSFNode> places;
   for (std::size_t i = 0; i < network.ghost_owner.size(); ++i)
     places.push_back({network.ghost_owner[i], network.ghost_place[i]});
-  check(PetscSFCreate(communicator, forest_.out()));
-  check(PetscSFSetGraph(forest_, static_cast<PetscInt>(sent_.size()), static_cast<PetscInt>(places.size()), nullptr,
-                        PETSC_COPY_VALUES, places.data(), PETSC_COPY_VALUES));
-  check(PetscSFSetUp(forest_));
-  MPI_Type_contiguous(sizeof(NodeMotion) / sizeof(double), MPI_DOUBLE, unit_.out());
-  MPI_Type_commit(unit_.out());
+  std::vector<PetscInt> leaves(places.size());
+  std::iota(leaves.begin(), leaves.end(), 0);
+  nodes_.set_up(communicator, places_.size(), leaves, places);
+  if (with_bodies_) set_up_bodies(network, communicator);
 }
 
-void GhostExchange::begin(const double* x, const double* v, const double* a, NodeMotion* ghosts) {
+void GhostExchange::set_up_bodies(const partition::LocalNetwork& network, MPI_Comm communicator) {
+  for (std::size_t i = 0; i < network.sent.size(); ++i)
+    if (const int more = network.blocks.size(network.first_number + network.sent[i]) - 3; more > 0)
+      sent_bodies_.push_back({i, places_[i] + 3, more});
+  std::vector<PetscInt> leaves;
+  std::vector<PetscSFNode> places;
+  for (std::size_t i = 0; i < network.ghost_owner.size(); ++i)
+    if (network.blocks.size(network.ghost_number[i]) > 3) {
+      leaves.push_back(static_cast<PetscInt>(i));
+      places.push_back({network.ghost_owner[i], network.ghost_place[i]});
+    }
+  rotations_.set_up(communicator, places_.size(), std::move(leaves), std::move(places));
+}
+
+void GhostExchange::begin(const double* x, const double* v, const double* a, NodeMotion* ghosts,
+                          bodies::RotationState* rotations) {
   if (alone_) return;
   const petsc::Timer timer(petsc::Phase::exchange);
-  for (std::size_t i = 0; i < sent_.size(); ++i) {
-    copy_or_zero(buffer_[i].x, x, sent_[i]);
-    copy_or_zero(buffer_[i].v, v, sent_[i]);
-    copy_or_zero(buffer_[i].a, a, sent_[i]);
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    copy_or_zero(nodes_.sent[i].x, x, places_[i], 3);
+    copy_or_zero(nodes_.sent[i].v, v, places_[i], 3);
+    copy_or_zero(nodes_.sent[i].a, a, places_[i], 3);
   }
-  ghosts_ = ghosts;
-  check(PetscSFBcastBegin(forest_, unit_, buffer_.data(), ghosts_, MPI_REPLACE));
+  nodes_.begin(ghosts);
+  if (!with_bodies_) return;
+  for (const auto& [item, place, unknowns] : sent_bodies_) {
+    copy_or_zero(rotations_.sent[item].y.data(), x, place, unknowns);
+    copy_or_zero(rotations_.sent[item].dy.data(), v, place, unknowns);
+    copy_or_zero(rotations_.sent[item].ddy.data(), a, place, unknowns);
+  }
+  rotations_.begin(rotations);
 }
 
 void GhostExchange::end() {
   if (alone_) return;
   const petsc::Timer timer(petsc::Phase::exchange);
-  check(PetscSFBcastEnd(forest_, unit_, buffer_.data(), ghosts_, MPI_REPLACE));
+  nodes_.end();
+  if (with_bodies_) rotations_.end();
 }
 
 }   // namespace cablenet::system

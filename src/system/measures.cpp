@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "access.hpp"
+#include "body_set.hpp"
 #include "cablenet/system/assembler.hpp"
 #include "element_loop.hpp"
 
@@ -24,22 +25,25 @@ const LocalState& Assembler::observe(double t, Vec x, Vec v, Vec a) {
   Access access(*this, x, v, a, nullptr);
   evaluated_ = {};
   access.begin_exchange();
-  const std::ptrdiff_t values = 3 * std::ptrdiff_t{network_.owned};
-  std::copy_n(access.data.x, values, state_.x.begin());
-  std::copy_n(access.data.v, values, state_.v.begin());
-  std::copy_n(access.data.a, values, state_.a.begin());
   access.finish_exchange();
-  for (int i = network_.owned; i < network_.owned + network_.ghosts; ++i) {
-    const NodeMotion& ghost = outside_[at(i - network_.owned)];
-    LocalState::at(state_.x, i) = Eigen::Map<const Vector3>(ghost.x);
-    LocalState::at(state_.v, i) = Eigen::Map<const Vector3>(ghost.v);
-    LocalState::at(state_.a, i) = Eigen::Map<const Vector3>(ghost.a);
+  bodies_->place({t, 0, 0}, false, access.data, nullptr);
+  const AnyNodes nodes{access.data};
+  for (int i = 0; i < network_.nodes; ++i) {
+    LocalState::at(state_.x, i) = Eigen::Map<const Vector3>(nodes.x(i));
+    LocalState::at(state_.v, i) = Eigen::Map<const Vector3>(nodes.v(i));
+    LocalState::at(state_.a, i) = Eigen::Map<const Vector3>(nodes.a(i));
   }
   for (const auto& [node, motion] : network_.prescribed) {
     const scene::Kinematics k = motion.at(t);
     LocalState::at(state_.x, node) = k.x;
     LocalState::at(state_.v, node) = k.v;
     LocalState::at(state_.a, node) = k.a;
+  }
+  state_.bodies.clear();
+  for (std::size_t b = 0; b < network_.bodies.size(); ++b) {
+    const bodies::Properties& body = network_.bodies[b].properties;
+    const bodies::RotationState rotation = bodies_->rotation(b, access.data);
+    state_.bodies.push_back({bodies::attitude(body, rotation.y), bodies::angular_velocity(body.rotation, rotation)});
   }
   return state_;
 }
@@ -57,6 +61,15 @@ Energies Assembler::energies() const {
     return true;
   });
   sum.work = work_;
+  for (int b = 0; b < network_.own_bodies; ++b) {
+    const Vector3& w = state_.bodies[at(b)].w;
+    sum.kinetic += 0.5 * w.dot(network_.bodies[at(b)].properties.inertia * w);
+  }
+  for (int i = 0; i < network_.own_links; ++i) {
+    const auto& [node, stiffness] = network_.links[at(i)];
+    sum.strain +=
+        0.5 * stiffness * (LocalState::at(state_.x, node[1]) - LocalState::at(state_.x, node[0])).squaredNorm();
+  }
   for (const auto& [node, mass, force] : network_.loads) {
     const auto x = LocalState::at(state_.x, node);
     sum.kinetic += 0.5 * mass * LocalState::at(state_.v, node).squaredNorm();
@@ -84,6 +97,14 @@ ForceScales Assembler::force_scales() {
     load += square(item.mass * network_.gravity) + item.force.squaredNorm();
     mass += square(item.mass);
   }
+  for (int b = 0; b < network_.own_bodies; ++b) {
+    const partition::LocalBody& body = network_.bodies[at(b)];
+    const Matrix3& inertia = body.properties.inertia;
+    const Vector3 w = bodies::angular_velocity(body.properties.rotation, body.start);
+    load += square(2 * w.norm() * (inertia * w).norm()) + square(2 * body.properties.torque.norm());
+    mass += square(4 * inertia.norm());
+  }
+  for (int i = 0; i < network_.own_links; ++i) stiffness += square(2 * network_.links[at(i)].stiffness);
   double sums[] = {load, stiffness, mass};
   MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, communicator_);
   return {std::sqrt(sums[0]), std::sqrt(sums[1]), std::sqrt(sums[2])};

@@ -22,14 +22,36 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 struct BlockRows {
   std::vector<int> first;
   std::vector<int> column;
+  /// Where sizes differ: per row and one past, its first value; per block, its first column in the row's values.
+  std::vector<int> values, offset;
 
-  int blocks(int row) const { return first[at(row) + 1] - first[at(row)]; }
-  int place(int row, int wanted) const {
-    const auto begin = column.begin() + first[at(row)];
-    const auto found = std::lower_bound(begin, column.begin() + first[at(row) + 1], wanted);
-    return static_cast<int>(found - begin);
+  /// The block's index among all.
+  int block(int row, int wanted) const {
+    const auto found = std::lower_bound(column.begin() + first[at(row)], column.begin() + first[at(row) + 1], wanted);
+    return static_cast<int>(found - column.begin());
   }
+  int row_values(int row) const { return values.empty() ? 9 * first[at(row)] : values[at(row)]; }
+  int column_values(int row, int block) const {
+    return values.empty() ? 3 * (block - first[at(row)]) : offset[at(block)];
+  }
+  int width(int row, int size) const {
+    return values.empty() ? 3 * (first[at(row) + 1] - first[at(row)]) : (values[at(row) + 1] - values[at(row)]) / size;
+  }
+  void place(const partition::Blocks& blocks, int first_number);
 };
+
+void BlockRows::place(const partition::Blocks& blocks, int first_number) {
+  if (blocks.uniform()) return;
+  values.push_back(0);
+  for (int row = 0; row + 1 < static_cast<int>(first.size()); ++row) {
+    int width = 0;
+    for (int i = first[at(row)]; i < first[at(row) + 1]; ++i) {
+      offset.push_back(width);
+      width += blocks.size(column[at(i)]);
+    }
+    values.push_back(values.back() + width * blocks.size(first_number + row));
+  }
+}
 
 /// @param each  calls its argument with every (row, column), repetitions included
 template <class Each>
@@ -53,11 +75,12 @@ BlockRows block_rows(int rows, const Each& each) {
   return result;
 }
 
-/// An element has four blocks of 9 values, a node at most one more.
+/// An element has four blocks of 9 values, a node at most one more; at a body's attachments they are larger.
 /// @throws InputError on every rank alike where a rank's matrix would be longer than 32 bits can count.
 void check_size(const partition::LocalNetwork& network, MPI_Comm communicator) {
   constexpr double most = std::numeric_limits<int>::max();
-  double values = 9.0 * (2.0 * static_cast<double>(network.elements.size()) + network.owned);
+  double values = 9.0 * (2.0 * static_cast<double>(network.elements.size()) + network.owned) +
+                  50.0 * static_cast<double>(network.carried.size() + network.bodies.size());
   int ranks = 1;
   MPI_Comm_size(communicator, &ranks);
   MPI_Allreduce(MPI_IN_PLACE, &values, 1, MPI_DOUBLE, MPI_MAX, communicator);
@@ -77,6 +100,8 @@ public:
       : network_(network),
         own_(block_rows(network.owned, [this](const auto& visit) { for_each_pair(true, visit); })),
         other_(block_rows(network.owned, [this](const auto& visit) { for_each_pair(false, visit); })) {
+    own_.place(network.blocks, network.first_number);
+    other_.place(network.blocks, network.first_number);
     written_[0].assign(own_.column.size(), false);
     written_[1].assign(other_.column.size(), false);
   }
@@ -85,28 +110,36 @@ public:
     if (row >= network_.owned || !network_.is_free(column)) return {};
     const bool other = column >= network_.owned;
     const BlockRows& rows = other ? other_ : own_;
-    const int place = rows.place(row, network_.number(column));
-    const std::size_t block = at(rows.first[at(row)] + place);
+    const int block = rows.block(row, network_.number(column));
     Slot slot;
-    slot.offset = 9 * rows.first[at(row)] + 3 * place;
-    slot.stride = static_cast<unsigned>(3 * rows.blocks(row)) & 0x1fffffff;
+    slot.offset = rows.row_values(row) + rows.column_values(row, block);
+    slot.stride = static_cast<unsigned>(rows.width(row, size(network_.first_number + row))) & 0x1fffffff;
     slot.other = other;
     slot.absent = 0;
-    slot.add = written_[slot.other][block];
-    written_[slot.other][block] = true;
+    slot.add = written_[slot.other][at(block)];
+    written_[slot.other][at(block)] = true;
     return slot;
+  }
+
+  ElementSlots slots(const std::array<int, 2>& node) {
+    const int a = network_.anchor(node[0]), b = network_.anchor(node[1]);
+    const Slot none;
+    return {network_.is_carried(node[0]) ? none : slot(a, a), a == b ? none : slot(a, b), a == b ? none : slot(b, a),
+            network_.is_carried(node[1]) ? none : slot(b, b)};
   }
 
   void preallocate(Mat matrix) const {
     std::vector<PetscInt> first{0}, columns;
-    first.reserve(3 * at(network_.owned) + 1);
+    first.reserve(at(network_.unknowns()) + 1);
     columns.reserve(9 * (own_.column.size() + other_.column.size()));
     for (int row = 0; row < network_.owned; ++row)
-      for (int r = 0; r < 3; ++r) {
+      for (int r = 0; r < size(network_.first_number + row); ++r) {
         const std::size_t begin = columns.size();
         for (const BlockRows* rows : {&own_, &other_})
-          for (int i = rows->first[at(row)]; i < rows->first[at(row) + 1]; ++i)
-            for (int c = 0; c < 3; ++c) columns.push_back(3 * rows->column[at(i)] + c);
+          for (int i = rows->first[at(row)]; i < rows->first[at(row) + 1]; ++i) {
+            const int column = rows->column[at(i)];
+            for (int c = 0; c < size(column); ++c) columns.push_back(network_.blocks.begin(column) + c);
+          }
         std::sort(columns.begin() + static_cast<std::ptrdiff_t>(begin), columns.end());
         first.push_back(static_cast<PetscInt>(columns.size()));
       }
@@ -115,6 +148,8 @@ public:
   }
 
 private:
+  int size(int number) const { return network_.blocks.size(number); }
+
   /// Owned nodes and their free neighbours, themselves among them, of this rank or of others; by solver number.
   template <class Visit>
   void for_each_pair(bool own, const Visit& visit) const {
@@ -124,10 +159,13 @@ private:
       if (row < network_.owned && network_.is_free(column) && (column < network_.owned) == own)
         visit(row, network_.number(column));
     };
-    for (const auto& element : network_.elements) {
-      join(element.node[0], element.node[1]);
-      join(element.node[1], element.node[0]);
-    }
+    const auto join_ends = [&](const std::array<int, 2>& node) {
+      const int a = network_.anchor(node[0]), b = network_.anchor(node[1]);
+      join(a, b);
+      join(b, a);
+    };
+    for (const auto& element : network_.elements) join_ends(element.node);
+    for (const auto& link : network_.links) join_ends(link.node);
   }
 
   const partition::LocalNetwork& network_;
@@ -138,10 +176,10 @@ private:
 TangentMatrix::TangentMatrix(const partition::LocalNetwork& network, bool symmetric, MPI_Comm communicator) {
   check_size(network, communicator);
   Pattern pattern(network);
-  const PetscInt rows = 3 * network.owned, all = 3 * network.free_nodes;
+  const PetscInt rows = network.unknowns(), all = network.all_unknowns();
   check(MatCreate(communicator, aij_.out()));
   check(MatSetSizes(aij_, rows, rows, all, all));
-  check(MatSetBlockSize(aij_, 3));
+  if (network.blocks.uniform()) check(MatSetBlockSize(aij_, 3));
   check(MatSetType(aij_, MATAIJ));
   pattern.preallocate(aij_);
   check(MatSetOption(aij_, MAT_NEW_NONZERO_LOCATION_ERR, PETSC_TRUE));
@@ -153,10 +191,10 @@ TangentMatrix::TangentMatrix(const partition::LocalNetwork& network, bool symmet
   check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(static_cast<Mat>(aij_)), MATMPIAIJ, &distributed));
   parts_[0] = aij_;
   if (distributed) check(MatMPIAIJGetSeqAIJ(aij_, &parts_[0], &parts_[1], nullptr));
-  for (const auto& [node, material, length] : network.elements) {
-    const auto [a, b] = node;
-    element_slots_.push_back({pattern.slot(a, a), pattern.slot(a, b), pattern.slot(b, a), pattern.slot(b, b)});
-  }
+  for (const auto& element : network.elements) element_slots_.push_back(pattern.slots(element.node));
+  for (const auto& link : network.links) link_slots_.push_back(pattern.slots(link.node));
+  for (int b = 0; b < network.own_bodies; ++b)
+    body_slots_.push_back(pattern.slot(network.bodies[at(b)].node, network.bodies[at(b)].node));
   for (const auto& load : network.loads) load_slots_.push_back(pattern.slot(load.node, load.node));
 
   std::array<char, 64> type{};

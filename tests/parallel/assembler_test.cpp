@@ -80,7 +80,8 @@ Field times_direction(System& system, const State& s, system::TangentMatrix& tan
 
 Field tangent(System& system, const State& s) {
   system::TangentMatrix matrix = system.assembler.make_tangent();
-  system.assembler.tangent(s.stage, system.vector(s.x), system.vector(s.v), {matrix, s.shift_v, s.shift_a});
+  system.assembler.tangent(s.stage, system.vector(s.x), system.vector(s.v), system.vector(s.a),
+                           {matrix, s.shift_v, s.shift_a});
   return times_direction(system, s, matrix);
 }
 

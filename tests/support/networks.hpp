@@ -81,7 +81,7 @@ struct System {
     double* array = nullptr;
     petsc::check(VecGetArrayWrite(vector, &array));
     for (int i = 0; i < assembler.network().owned; ++i)
-      Eigen::Map<Vector3>(array + 3 * i) = field[at(assembler.network().scene_node[at(i)])];
+      Eigen::Map<Vector3>(array + assembler.network().begin[at(i)]) = field[at(assembler.network().scene_node[at(i)])];
     petsc::check(VecRestoreArrayWrite(vector, &array));
     return vector;
   }
@@ -92,7 +92,8 @@ struct System {
     const double* array = nullptr;
     petsc::check(VecGetArrayRead(vector, &array));
     for (int i = 0; i < assembler.network().owned; ++i)
-      field[at(assembler.network().scene_node[at(i)])] = Eigen::Map<const Vector3>(array + 3 * i);
+      field[at(assembler.network().scene_node[at(i)])] =
+          Eigen::Map<const Vector3>(array + assembler.network().begin[at(i)]);
     petsc::check(VecRestoreArrayRead(vector, &array));
     MPI_Allreduce(MPI_IN_PLACE, field.data(), static_cast<int>(3 * field.size()), MPI_DOUBLE, MPI_SUM,
                   assembler.communicator());

@@ -1,14 +1,17 @@
 #pragma once
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "cablenet/base/linear_algebra.hpp"
+#include "cablenet/bodies/rigid_body.hpp"
 #include "cablenet/elements/cable.hpp"
 #include "cablenet/scene/motion.hpp"
 
-/// The whole discretised network in the scene's own numbering: points first, then the nets' nodes, then each cable's
-/// inner nodes from end to end.  The same on every rank; immutable once built.
+/// The whole discretised network in the scene's own numbering: points first, then the bodies' centres of gravity and
+/// attachments, then the nets' nodes, then each cable's inner nodes from end to end.  The same on every rank; immutable
+/// once built.
 namespace cablenet::network {
 
 struct Element {
@@ -29,6 +32,30 @@ struct PrescribedNode {
   scene::Motion motion;
 };
 
+/// A node whose unknowns go on with those of a body's attitude.
+struct Body {
+  std::string name;
+  int node;   ///< its centre of gravity; the mass is one of Network::loads
+  bodies::Properties properties;
+  bodies::RotationState start;   ///< attitude and angular velocity
+  int first_carried = 0;         ///< its carried nodes: [first_carried, first_carried + carried)
+  int carried = 0;
+};
+
+/// A node without unknowns of its own: a body's attachment.
+struct CarriedNode {
+  int node;
+  int body;         ///< index into Network::bodies
+  Vector3 offset;   ///< r from the centre of gravity, body axes [m]
+};
+
+/// The papers' massless stiff element: pulls a node and a carried one together by stiffness * distance.
+/// Source: Tonin & Braun, CILAMCE 2020, eqs 19, 20.
+struct Link {
+  std::array<int, 2> node;   ///< the cable's end, the carried node
+  double stiffness;          ///< EA/|r| [N/m]
+};
+
 /// A cable's or a net's elements: [first_element, first_element + elements).
 struct Span {
   std::string name;
@@ -43,10 +70,15 @@ struct Network {
   std::vector<elements::CableMaterial> materials;
   std::vector<PointLoad> loads;
   std::vector<PrescribedNode> prescribed;   ///< held or moved nodes: no unknowns
-  std::vector<Span> spans;                  ///< the scene's cables, then its nets
-  std::vector<int> point_node;              ///< per scene point
-  double gravity = 0;                       ///< [m/s^2] along -z
+  std::vector<Body> bodies;                 ///< the scene's
+  std::vector<CarriedNode> carried;         ///< body after body
+  std::vector<Link> links;
+  std::vector<Span> spans;       ///< the scene's cables, then its nets
+  std::vector<int> point_node;   ///< per scene point
+  double gravity = 0;            ///< [m/s^2] along -z
 
+  /// Of all free nodes and bodies.
+  std::int64_t unknowns() const;
   /// "cable `trunk`, element 3 of 24": for messages.
   std::string element_name(int element) const;
 };

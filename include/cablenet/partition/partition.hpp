@@ -23,7 +23,8 @@ struct Partition {
   std::vector<int> node_owner;   ///< per node; a prescribed node belongs to a rank that has an element at it
   std::vector<int>
       element_owner;   ///< per element: the owner of a free node of its, else the first rank with free nodes
-  /// Per node, -1 if prescribed: contiguous on each rank, its interior from leaf to root, then its interface nodes.
+  /// Per node, -1 if prescribed, its body's if carried: contiguous on each rank, its interior from leaf to root, then
+  /// its interface nodes.
   std::vector<int> solver_number;
   std::vector<int> first_number;   ///< per rank, and one past the last
   Blocks blocks;                   ///< by solver number

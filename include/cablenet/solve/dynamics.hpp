@@ -1,13 +1,13 @@
 #pragma once
 #include <petscts.h>
 
-#include <functional>
 #include <string>
 
 #include "cablenet/scene/scene.hpp"
 #include "cablenet/solve/alpha_step.hpp"
 #include "cablenet/solve/defaults.hpp"
 #include "cablenet/solve/newton_convergence.hpp"
+#include "cablenet/solve/observers.hpp"
 #include "cablenet/solve/schedule.hpp"
 #include "cablenet/solve/tangent_reuse.hpp"
 #include "cablenet/system/assembler.hpp"
@@ -16,35 +16,6 @@
 namespace cablenet::solve {
 
 using TimeStepper = petsc::Handle<TS, TSDestroy>;
-
-/// An instant of a run: handed to observers.
-struct Instant {
-  double t;   ///< [s]
-  long step;
-  Vec x;   ///< positions of the free nodes [m]
-  Vec v;   ///< [m/s]
-  Vec a;   ///< over the last step, (v1 - v0)/dt where the scheme's own alternates; at the start: exact [m/s^2]
-};
-
-struct Counts {
-  long steps = 0;
-  long rejected = 0;
-  long newton = 0;
-  long linear = 0;
-};
-
-enum class Verdict {
-  finished,   ///< the scene's end was reached
-  stopped,    ///< by -ts_max_steps or -ts_max_time
-  failed      ///< Newton failed down to the smallest step
-};
-
-struct Observers {
-  /// At the start, at every output time, and at the last good state.  Collective.
-  std::function<void(const Instant&)> output;
-  /// After every step.  Collective.
-  std::function<void(double t, double dt, const Counts&)> step;
-};
 
 /// All member functions are collective.
 class Dynamics {
@@ -58,8 +29,8 @@ public:
   std::string linear_solver() const;
   /// Why the last attempt failed, e.g. "Newton's method did not converge (DIVERGED_MAX_IT)".
   const std::string& failure() const { return failure_; }
-  /// Scene number of the element (on any rank) where the failed attempt's residual was worst or undefined.
-  int failed_element();
+  /// Where (on any rank) the failed attempt's residual was worst or undefined.
+  FailedPlace failed_place();
 
 private:
   void create_stepper();
@@ -109,6 +80,7 @@ private:
   NewtonConvergence convergence_;
   double last_step_ = 0;      ///< [s]
   int outside_domain_ = -1;   ///< scene number of an element that lost its length in the running step
+  int outside_body_ = -1;     ///< likewise of a body that turned out of its domain
   int attempts_ = 0;          ///< of the running step
   bool keeps_mean_acceleration_ = false;
   bool combines_ = false;   ///< each residual but a solve's last is followed by its tangent

@@ -18,6 +18,8 @@ namespace cablenet::system {
 
 using Vector = petsc::Handle<Vec, VecDestroy>;
 
+class BodySet;
+
 /// All member functions are collective unless said otherwise.
 class Assembler {
 public:
@@ -41,15 +43,16 @@ public:
   /// @returns false on a rank where two neighbouring nodes coincide (or a value is not finite); r is then of no use.
   bool residual(const Stage& stage, Vec x, Vec v, Vec a, Vec r, const TangentRequest* request = nullptr);
   /// The tangent alone, unpublished; cheaper where the last residual was at this x.  @pre no two neighbours coincide
-  void tangent(const Stage& stage, Vec x, Vec v, const TangentRequest& request);
+  void tangent(const Stage& stage, Vec x, Vec v, Vec a, const TangentRequest& request);
 
   /// The mass matrix [kg], unpublished, and the force -r at (t, x, v) with no acceleration of the free nodes [N]:
   /// M a = force.
-  void mass_matrix(TangentMatrix& mass);
+  void mass_matrix(Vec x, Vec v, TangentMatrix& mass);
   void force(double t, Vec x, Vec v, Vec force);
 
-  /// Adds the work that moved points do over the accepted step whose last residual this is.  Not collective.
-  void add_work(const Stage& stage);
+  /// Ends the accepted step whose last residual this is: adds the work that moved points and torques did over it, and
+  /// gives bodies the end velocity that a conserving step has found.  Not collective.
+  void end_step(const Stage& stage, Vec x, Vec v);
 
   /// Brings an instant's positions, velocities and accelerations of all local nodes together for energies and probes.
   const LocalState& observe(double t, Vec x, Vec v, Vec a);
@@ -60,21 +63,30 @@ public:
   ForceScales force_scales();
   /// Scene number of the element that the last residual found without length on this rank; -1: none.  Not collective.
   int coincident_element() const { return coincident_; }
+  /// Index into Network::bodies of one that turned out of its domain then (near pitch 90 degrees with Euler angles, by
+  /// half a turn in a step with a quaternion); -1: none.  Not collective.
+  int outside_body() const;
 
 private:
   struct Starts;
   struct Access;
 
+  bool conserves(const Stage& stage) const { return rule_.scheme == scene::Scheme::energy_momentum && stage.dt > 0; }
+
   void start_prescribed(double t);
+  void add_work(const Stage& stage);
   void set_prescribed(const Stage& stage);
   template <class Visit>
   void visit_law(const Stage& stage, Visit&& visit) const;
   template <class Law>
   void record_starts(const Law& law, const Access& access);
   template <class Law>
-  bool run(const Law& law, Access& access, const TangentRequest* request);
+  bool run(const Law& law, const Stage& stage, Access& access, const TangentRequest* request);
   template <class Law, bool with_residual, bool with_tangent>
-  bool sweep(const Law& law, Access& access, const TangentRequest* request);
+  bool sweep(const Law& law, const Stage& stage, Access& access, const TangentRequest* request);
+  template <class Law, bool with_tangent>
+  bool sweep_bodies(const Law& law, const Stage& stage, Access& access, const TangentRequest* request);
+  void finish_bodies(Access& access, const TangentRequest* request);
   void add_loads(Access& access, const TangentRequest* request);
 
   /// A prescribed node at the two ends of the step.
@@ -90,9 +102,11 @@ private:
   bool is_elastic_;   ///< no material has damping or goes slack
   GhostExchange ghosts_;
   LocalState state_;                  ///< that was observed
-  std::vector<NodeMotion> outside_;   ///< of ghosts and prescribed nodes at the stage
-  std::vector<double> outside_r_;     ///< their forces
-  std::unique_ptr<Starts> starts_;    ///< per element
+  std::vector<NodeMotion> outside_;   ///< of ghosts, prescribed and carried nodes at the stage
+  std::vector<bodies::RotationState> ghost_rotations_;
+  std::vector<double> outside_r_;    ///< their forces
+  std::unique_ptr<Starts> starts_;   ///< per element
+  std::unique_ptr<BodySet> bodies_;
   std::vector<NodeStep> prescribed_;
   petsc::VectorState evaluated_;   ///< of the x that outside_ belongs to
   Stage evaluated_stage_{};

@@ -6,7 +6,7 @@
 #include "cablenet/partition/local_network.hpp"
 #include "cablenet/petsc/handle.hpp"
 
-/// Brings the motion of other ranks' nodes here.  Tests: tests/parallel/assembler_test.cpp
+/// Brings the motion of other ranks' nodes and bodies here.  Tests: tests/parallel/assembler_test.cpp
 namespace cablenet::system {
 
 /// Position, velocity, acceleration of a node that this rank does not own.
@@ -21,20 +21,41 @@ class GhostExchange {
 public:
   GhostExchange(const partition::LocalNetwork& network, MPI_Comm communicator);
 
-  /// @param x, v, a  3 doubles per owned node; those that are not given are sent as zero
-  /// @param ghosts   receives the ghosts' motion, in local order, by the time of end()
-  void begin(const double* x, const double* v, const double* a, NodeMotion* ghosts);
+  /// @param x, v, a    the values of this rank's vectors; those that are not given are sent as zero
+  /// @param ghosts     receives the ghosts' motion, in local order, by the time of end()
+  /// @param rotations  likewise, of those that are bodies
+  void begin(const double* x, const double* v, const double* a, NodeMotion* ghosts, bodies::RotationState* rotations);
   void end();
 
 private:
-  using StarForest = petsc::Handle<PetscSF, PetscSFDestroy>;
+  /// One message per neighbour, of as many doubles an item as `Item` has.
+  template <class Item>
+  struct Broadcast {
+    void set_up(MPI_Comm communicator, std::size_t roots, std::vector<PetscInt> leaves,
+                std::vector<PetscSFNode> places);
+    void begin(Item* to);
+    void end();
+
+    std::vector<Item> sent;
+    Item* received = nullptr;
+    petsc::Handle<PetscSF, PetscSFDestroy> forest;
+    petsc::Handle<MPI_Datatype, MPI_Type_free> unit;
+  };
+  /// A body among the nodes that are sent.
+  struct SentBody {
+    std::size_t item;
+    int place;   ///< of its attitude's unknowns in the vectors
+    int unknowns;
+  };
+
+  void set_up_bodies(const partition::LocalNetwork& network, MPI_Comm communicator);
 
   bool alone_ = true;
-  std::vector<int> sent_;
-  std::vector<NodeMotion> buffer_;
-  NodeMotion* ghosts_ = nullptr;
-  StarForest forest_;
-  petsc::Handle<MPI_Datatype, MPI_Type_free> unit_;
+  bool with_bodies_ = false;
+  std::vector<int> places_;   ///< of the sent nodes in the vectors
+  std::vector<SentBody> sent_bodies_;
+  Broadcast<NodeMotion> nodes_;
+  Broadcast<bodies::RotationState> rotations_;
 };
 
 }   // namespace cablenet::system

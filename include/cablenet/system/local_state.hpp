@@ -16,12 +16,18 @@ struct Energies {
   double total() const { return kinetic + strain + gravity - work; }
 };
 
+struct BodyState {
+  Quaternion attitude;   ///< body axes to world, unit, of continuous sign
+  Vector3 w;             ///< angular velocity, body axes [rad/s]
+};
+
 /// Positions, velocities, accelerations of this rank's local nodes: 3 doubles a node, in local order.
 struct LocalState {
   double t = 0;
-  std::vector<double> x;   ///< [m]
-  std::vector<double> v;   ///< [m/s]
-  std::vector<double> a;   ///< [m/s^2]
+  std::vector<BodyState> bodies;   ///< as LocalNetwork::bodies
+  std::vector<double> x;           ///< [m]
+  std::vector<double> v;           ///< [m/s]
+  std::vector<double> a;           ///< [m/s^2]
 
   static Eigen::Map<const Vector3> at(const std::vector<double>& values, int node) {
     return Eigen::Map<const Vector3>(values.data() + 3 * static_cast<std::size_t>(node));

@@ -36,6 +36,7 @@ struct TangentRequest {
   TangentMatrix& matrix;
   double shift_v;
   double shift_a;
+  double shift_x = 1;   ///< 0: of the accelerations alone
 };
 
 }   // namespace cablenet::system

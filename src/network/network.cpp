@@ -1,0 +1,22 @@
+#include "cablenet/network/network.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace cablenet::network {
+
+std::string Network::element_name(int element) const {
+  const auto after = std::upper_bound(spans.begin(), spans.end(), element,
+                                      [](int e, const Span& span) { return e < span.first_element; });
+  const Span& span = *(after - 1);
+  return fmt::format("{}, element {} of {}", span.name, element - span.first_element + 1, span.elements);
+}
+
+std::int64_t Network::unknowns() const {
+  std::int64_t count = 3 * static_cast<std::int64_t>(position.size() - prescribed.size() - carried.size());
+  for (const Body& body : bodies) count += bodies::rotation_unknowns(body.properties.rotation);
+  return count;
+}
+
+}   // namespace cablenet::network

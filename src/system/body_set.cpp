@@ -1,0 +1,170 @@
+#include "body_set.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cablenet/bodies/rotation.hpp"
+
+namespace cablenet::system {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+using Const3 = Eigen::Map<const Vector3>;
+using Map3 = Eigen::Map<Vector3>;
+
+/// cos(pitch) below which roll and yaw are hardly told apart: 0.6 degrees from the vertical.
+constexpr double least_cosine = 0.01;
+
+/// A conserving step's lever grows without limit as it nears half a turn.
+bool is_in_domain(const bodies::Properties& body, const bodies::Start& start, const bodies::StepRule& rule,
+                  const bodies::Vector4& y) {
+  if (body.rotation == bodies::Rotation::none) return true;
+  if (rule.conserving) return start.y.dot(y) > 0.5 * start.y.squaredNorm();
+  const bodies::Vector4 end = start.y + (y - start.y) / rule.alpha_f;
+  return bodies::distance_from_singular(body.rotation, rule.dt > 0 ? end : y) > least_cosine && y.allFinite();
+}
+
+/// Columns: derivatives of map r by the attitude's unknowns.
+bodies::Matrix34 columns(const std::array<bodies::StageMaps, 4>& by, int unknowns, Matrix3 bodies::StageMaps::*map,
+                         const Vector3& r) {
+  bodies::Matrix34 result = bodies::Matrix34::Zero();
+  for (int k = 0; k < unknowns; ++k) result.col(k) = by[at(k)].*map * r;
+  return result;
+}
+
+}   // namespace
+
+BodySet::BodySet(const partition::LocalNetwork& network)
+    : network_(network),
+      starts_(network.bodies.size()),
+      stages_(network.bodies.size()),
+      tangents_(network.carried.size()),
+      blocks_(at(network.own_bodies), BodyBlock::Zero()) {}
+
+bodies::RotationState BodySet::rotation(std::size_t body, const NodeData& data) const {
+  const int node = network_.bodies[body].node;
+  if (node >= data.owned) return data.ghost_rotations[node - data.owned];
+  bodies::RotationState state;
+  const int place = data.begin[node] + 3, n = unknowns(body);
+  std::copy_n(data.x + place, n, state.y.data());
+  std::copy_n(data.v + place, n, state.dy.data());
+  if (data.a != nullptr) std::copy_n(data.a + place, n, state.ddy.data());
+  return state;
+}
+
+void BodySet::begin_step(const NodeData& data) {
+  for (std::size_t b = 0; b < starts_.size(); ++b) {
+    const bodies::RotationState state = rotation(b, data);
+    starts_[b] = bodies::start_of(network_.bodies[b].properties, state.y, state.dy);
+  }
+}
+
+bool BodySet::place(const Stage& stage, bool conserving, const NodeData& data, const bodies::Seeds* seeds) {
+  const AnyNodes nodes{data};
+  outside_ = -1;
+  for (std::size_t b = 0; b < stages_.size(); ++b) {
+    const partition::LocalBody& body = network_.bodies[b];
+    const bool turns_freely = body.properties.rotation == bodies::Rotation::quaternion;
+    const bodies::StepRule rule{stage.dt > 0 ? stage.alpha_f : 1, stage.dt, conserving && turns_freely && stage.dt > 0};
+    const bodies::RotationState state = rotation(b, data);
+    if (!is_in_domain(body.properties, starts_[b], rule, state.y)) outside_ = static_cast<int>(b);
+    const bool gets_tangent = seeds != nullptr && unknowns(b) > 0;
+    stages_[b] = bodies::evaluate(body.properties, starts_[b], rule, state, gets_tangent ? seeds : nullptr);
+    const bodies::StageMaps& maps = stages_[b].at;
+    for (int k = body.first_carried; k < body.first_carried + body.carried; ++k) {
+      const auto& [node, index, r] = network_.carried[at(k)];
+      NodeMotion& here = data.outside[node - data.owned];
+      Map3(here.x) = Const3(nodes.x(body.node)) + maps.place * r;
+      Map3(here.v) = Const3(nodes.v(body.node)) + maps.velocity * r;
+      if (data.a != nullptr) Map3(here.a) = Const3(nodes.a(body.node)) + maps.acceleration * r;
+      Map3(data.outside_r + 3 * std::ptrdiff_t{node - data.owned}).setZero();
+      if (seeds == nullptr) continue;
+      const auto column = [&](auto map) { return columns(stages_[b].by, unknowns(b), map, r); };
+      using bodies::StageMaps;
+      tangents_[at(k)] = {column(&StageMaps::place), column(&StageMaps::velocity), column(&StageMaps::acceleration),
+                          -bodies::skew<double>(maps.lever * r) * maps.turn};
+    }
+  }
+  return outside_ < 0;
+}
+
+const CarriedTangent& BodySet::carried_tangent(int local_node) const {
+  return tangents_[at(local_node - network_.nodes) + network_.carried.size()];
+}
+
+BodyBlock* BodySet::block_at(int local_node) {
+  const int body = network_.carried_at(local_node).body;
+  return body < network_.own_bodies ? &blocks_[at(body)] : nullptr;
+}
+
+BodySet::Sums BodySet::sums(std::size_t b, const NodeData& data) const {
+  const partition::LocalBody& body = network_.bodies[b];
+  Sums sums{Vector3::Zero(), bodies::Moments::Zero()};
+  for (int k = body.first_carried; k < body.first_carried + body.carried; ++k) {
+    const auto& [node, index, r] = network_.carried[at(k)];
+    const Const3 force(data.outside_r + 3 * std::ptrdiff_t{node - data.owned});
+    sums.force += force;
+    sums.moments += force * r.transpose();
+  }
+  return sums;
+}
+
+void BodySet::add_forces(const NodeData& data) const {
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const Sums sum = sums(b, data);
+    double* const r = data.r + data.begin[network_.bodies[b].node];
+    Map3 force(r);
+    force += sum.force;
+    const bodies::StageMaps& maps = stages_[b].at;
+    const bodies::Vector4 rows = maps.own + maps.turn.transpose() * bodies::torque_of(maps.lever, sum.moments);
+    for (int k = 0; k < unknowns(b); ++k) r[3 + k] += rows(k);
+  }
+}
+
+void BodySet::write_tangent(const NodeData& data, TangentMatrix& matrix) {
+  const std::array<double*, 2> values = matrix.open();
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const Sums sum = sums(b, data);
+    const bodies::StageMaps& maps = stages_[b].at;
+    const Vector3 torque = bodies::torque_of(maps.lever, sum.moments);
+    const int n = unknowns(b);
+    BodyBlock& block = blocks_[b];
+    for (int k = 0; k < n; ++k) {
+      const bodies::StageMaps& by = stages_[b].by[at(k)];
+      block.col(3 + k).tail<4>() +=
+          by.own + by.turn.transpose() * torque + maps.turn.transpose() * bodies::torque_of(by.lever, sum.moments);
+    }
+    const TangentMatrix::Slot& slot = matrix.body_slots()[b];
+    for (int i = 0; i < 3 + n; ++i)
+      for (int j = 0; j < 3 + n; ++j) {
+        double& to = (values[0] + slot.offset + i * static_cast<int>(slot.stride))[j];
+        to = slot.add ? to + block(i, j) : block(i, j);
+      }
+    block.setZero();
+  }
+  matrix.close();
+}
+
+double BodySet::end_step(const Stage& stage, bool conserving, double* x, double* v) const {
+  double work = 0;
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const partition::LocalBody& body = network_.bodies[b];
+    const int place = network_.begin[at(body.node)] + 3, n = unknowns(b);
+    bodies::RotationState state;
+    std::copy_n(x + place, n, state.y.data());
+    std::copy_n(v + place, n, state.dy.data());
+    Vector3 w = bodies::angular_velocity(body.properties.rotation, state);
+    if (conserving && body.properties.rotation == bodies::Rotation::quaternion) {
+      w = bodies::conserving_end(starts_[b], stage.dt, state.y);
+      const Quaternion attitude = bodies::attitude(body.properties, state.y);
+      state = bodies::rotation_state(body.properties.rotation, attitude, w);
+      std::copy_n(state.y.data(), n, x + place);
+      std::copy_n(state.dy.data(), n, v + place);
+    }
+    if (n > 0) work += 0.5 * stage.dt * body.properties.torque.dot(starts_[b].w + w);
+  }
+  return work;
+}
+
+}   // namespace cablenet::system

@@ -1,0 +1,70 @@
+#pragma once
+#include <vector>
+
+#include "cablenet/bodies/rigid_body.hpp"
+#include "cablenet/partition/local_network.hpp"
+#include "cablenet/system/rules.hpp"
+#include "cablenet/system/tangent_matrix.hpp"
+#include "node_data.hpp"
+
+namespace cablenet::system {
+
+/// How a carried node's motion follows its body's attitude, by its unknowns; zero columns where those are fewer than
+/// four.  The body's position comes on top as it is.
+struct CarriedTangent {
+  bodies::Matrix34 x, v, a;
+  bodies::Matrix34 load;   ///< a force F is the generalised force load^T F on the attitude
+};
+
+/// A body's block of the tangent while its parts are collected.
+using BodyBlock = Eigen::Matrix<double, 7, 7>;
+
+/// The bodies at this rank's nodes during an evaluation: first they place the nodes that they carry, then elements
+/// leave forces on those, and the bodies collect them.
+class BodySet {
+public:
+  explicit BodySet(const partition::LocalNetwork& network);
+
+  bool empty() const { return network_.bodies.empty(); }
+
+  /// Keeps the step's start.
+  void begin_step(const NodeData& data);
+  /// Sets the carried nodes' motion at the stage and clears their forces.
+  /// @param seeds  with them, also carried_tangent()
+  /// @returns false where a body has left its domain: outside() says which
+  bool place(const Stage& stage, bool conserving, const NodeData& data, const bodies::Seeds* seeds);
+  /// Index into LocalNetwork::bodies; -1: none.
+  int outside() const { return outside_; }
+
+  const CarriedTangent& carried_tangent(int local_node) const;
+  /// Where a part of the block of the body that carries `local_node` is added; nullptr if it is another rank's.
+  BodyBlock* block_at(int local_node);
+
+  /// Adds what the bodies' own inertia and the forces on carried nodes come to.
+  void add_forces(const NodeData& data) const;
+  /// Likewise the bodies' own blocks.
+  void write_tangent(const NodeData& data, TangentMatrix& matrix);
+
+  /// Ends an accepted step: conserving steps set their own end velocities.
+  /// @returns the work of the constant torques [J]
+  double end_step(const Stage& stage, bool conserving, double* x, double* v) const;
+  bodies::RotationState rotation(std::size_t body, const NodeData& data) const;
+
+private:
+  /// F and F r^T of a body's attachments.
+  struct Sums {
+    Vector3 force;
+    bodies::Moments moments;
+  };
+  Sums sums(std::size_t body, const NodeData& data) const;
+  int unknowns(std::size_t body) const { return bodies::rotation_unknowns(network_.bodies[body].properties.rotation); }
+
+  const partition::LocalNetwork& network_;
+  std::vector<bodies::Start> starts_;
+  std::vector<bodies::Stage> stages_;
+  std::vector<CarriedTangent> tangents_;
+  std::vector<BodyBlock> blocks_;
+  int outside_ = -1;
+};
+
+}   // namespace cablenet::system
