@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cablenet/base/linear_algebra.hpp"
+#include "cablenet/scene/body.hpp"
 #include "cablenet/scene/motion.hpp"
 
 /// What the user asked for, as plain data in SI units; `repeat` is expanded, names are resolved to indices.
@@ -30,31 +31,6 @@ struct Point {
   double mass = 0;                      ///< [kg]
   Vector3 force = Vector3::Zero();      ///< constant [N], world frame
   std::optional<Motion> motion;         ///< none: the point is free
-};
-
-/// Where cables may be fastened to a body.
-struct Attachment {
-  std::string name;
-  Vector3 offset;   ///< from the centre of gravity, body axes [m]
-};
-
-/// How a body's attitude is described to the solver.
-enum class Rotation { quaternion, euler };
-
-struct Body {
-  std::string name;
-  std::string where;                    ///< "file:line" for messages
-  double mass = 0;                      ///< [kg], > 0
-  std::optional<Matrix3> inertia;       ///< about the centre of gravity, body axes [kg m^2]; none: a point mass
-  Vector3 position = Vector3::Zero();   ///< of the centre of gravity, drawn [m]
-  Quaternion attitude = Quaternion::Identity();   ///< drawn, unit: body axes to world
-  Vector3 velocity = Vector3::Zero();             ///< [m/s]
-  Vector3 angular_velocity = Vector3::Zero();     ///< body axes [rad/s]
-  Vector3 force = Vector3::Zero();                ///< constant, world frame [N]
-  Vector3 torque = Vector3::Zero();               ///< constant, body axes [N m]
-  std::vector<Attachment> attachments;
-  Rotation rotation = Rotation::quaternion;
-  std::optional<double> link_stiffness;   ///< EA of the links between cables and body [N]; none: cables end on the body
 };
 
 struct PointEnd {

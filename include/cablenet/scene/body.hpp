@@ -1,0 +1,36 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cablenet/base/linear_algebra.hpp"
+
+/// A rigid body as the scene describes it.
+namespace cablenet::scene {
+
+/// Where cables may be fastened to a body.
+struct Attachment {
+  std::string name;
+  Vector3 offset;   ///< from the centre of gravity, body axes [m]
+};
+
+/// How a body's attitude is described to the solver.
+enum class Rotation { quaternion, euler };
+
+struct Body {
+  std::string name;
+  std::string where;                    ///< "file:line" for messages
+  double mass = 0;                      ///< [kg], > 0
+  std::optional<Matrix3> inertia;       ///< about the centre of gravity, body axes [kg m^2]; none: a point mass
+  Vector3 position = Vector3::Zero();   ///< of the centre of gravity, drawn [m]
+  Quaternion attitude = Quaternion::Identity();   ///< drawn, unit: body axes to world
+  Vector3 velocity = Vector3::Zero();             ///< [m/s]
+  Vector3 angular_velocity = Vector3::Zero();     ///< body axes [rad/s]
+  Vector3 force = Vector3::Zero();                ///< constant, world frame [N]
+  Vector3 torque = Vector3::Zero();               ///< constant, body axes [N m]
+  std::vector<Attachment> attachments;
+  Rotation rotation = Rotation::quaternion;
+  std::optional<double> link_stiffness;   ///< EA of the links between cables and body [N]; none: cables end on the body
+};
+
+}   // namespace cablenet::scene
