@@ -133,21 +133,21 @@ void check_circles(const std::vector<CableDraft>& drafts) {
   for (std::size_t i = 0; i < drafts.size(); ++i) search.visit(i);
 }
 
-void check_ends(const std::vector<CableDraft>& drafts, const std::vector<Cable>& cables,
-                const std::vector<PointDraft>& point_drafts, const std::vector<Point>& points, const Time& time) {
-  std::vector<bool> is_used(points.size(), false);
+void check_ends(const std::vector<CableDraft>& drafts, const std::vector<PointDraft>& points, const Scene& scene) {
+  std::vector<bool> is_used(scene.points.size(), false);
   std::size_t i = 0;
   for (const CableDraft& draft : drafts) {
     for (int k = 0; k < draft.copies(); ++k, ++i) {
-      check_straight(draft, cables[i], points, time);
-      for (const CableEnd* end : {&cables[i].from, &cables[i].to})
+      const Cable& cable = scene.cables[i];
+      check_straight(draft, cable, scene.points, scene.time);
+      for (const CableEnd* end : {&cable.from, &cable.to})
         if (const auto* point = std::get_if<PointEnd>(end)) is_used[static_cast<std::size_t>(point->point)] = true;
     }
   }
   i = 0;
-  for (const PointDraft& draft : point_drafts) {
-    if (!is_used[i] && !draft.point.motion)
-      draft.value.fail(fmt::format("point {} is attached to nothing: connect a cable or remove it.", draft.point.name));
+  for (const PointDraft& draft : points) {
+    if (!is_used[i] && !draft.thing.motion)
+      draft.value.fail(fmt::format("point {} is attached to nothing: connect a cable or remove it.", draft.thing.name));
     i += static_cast<std::size_t>(std::max(draft.copies, 1));
   }
 }

@@ -8,16 +8,6 @@ namespace {
 
 using Kind = Reference::Kind;
 
-const Reference& repeated_end(const CableDraft& draft) {
-  const bool one_tap = (draft.from.kind == Kind::cable) != (draft.to.kind == Kind::cable);
-  const Reference& other = draft.from.kind == Kind::cable ? draft.to : draft.from;
-  if (!one_tap || other.kind != Kind::point)
-    draft.repeat->value.fail(
-        "this cable cannot be repeated; expected one end {cable: NAME, at: s} and one end at a "
-        "point. Change its ends or remove repeat.");
-  return other;
-}
-
 /// One draft's cables; the ends are those of its first copy.
 struct Ends {
   CableEnd from, to;
@@ -25,8 +15,7 @@ struct Ends {
 
 class Resolver {
 public:
-  Resolver(const Names& points, const Names& cables, const Names& nets, const std::vector<Net>& net_list)
-      : points_(points), cables_(cables), nets_(nets), net_list_(net_list) {}
+  Resolver(const Scene& scene, const SceneNames& names) : scene_(scene), names_(names) {}
 
   Ends ends(const CableDraft& draft) const {
     const bool is_repeated = draft.repeat.has_value();
@@ -35,28 +24,26 @@ public:
 
 private:
   CableEnd end(const Reference& reference, bool is_repeated) const {
-    if (reference.kind == Kind::cable) return TapEnd{cables_.one(reference.value, reference.name), reference.at};
+    if (reference.kind == Kind::cable) return TapEnd{names_.cables.one(reference.value, reference.name), reference.at};
     if (reference.kind == Kind::net) return net_end(reference);
-    if (is_repeated && points_.has(reference.name)) return PointEnd{points_.find(reference.name)->first};
-    if (!points_.find(reference.name) && reference.name.find('.') != std::string::npos)
+    if (is_repeated && names_.points.has(reference.name)) return PointEnd{names_.points.find(reference.name)->first};
+    if (!names_.points.find(reference.name) && reference.name.find('.') != std::string::npos)
       reference.value.fail(
           fmt::format("{}: an attachment of a body is not supported yet. Use a point.", reference.name));
-    return PointEnd{points_.one(reference.value, reference.name)};
+    return PointEnd{names_.points.one(reference.value, reference.name)};
   }
 
   CableEnd net_end(const Reference& reference) const {
-    const int index = nets_.one(reference.value, reference.name);
-    const auto& meshes = net_list_[static_cast<std::size_t>(index)].meshes;
+    const int index = names_.nets.one(reference.value, reference.name);
+    const auto& meshes = scene_.nets[static_cast<std::size_t>(index)].meshes;
     if (reference.node[0] > meshes[0] || reference.node[1] > meshes[1])
       reference.value.fail(fmt::format("node [{}, {}] is not allowed; expected [0..{}, 0..{}] in net {}. Correct it.",
                                        reference.node[0], reference.node[1], meshes[0], meshes[1], reference.name));
     return NetEnd{index, reference.node};
   }
 
-  const Names& points_;
-  const Names& cables_;
-  const Names& nets_;
-  const std::vector<Net>& net_list_;
+  const Scene& scene_;
+  const SceneNames& names_;
 };
 
 void move_end(CableEnd& end, const Repeat& repeat, int k) {
@@ -99,34 +86,13 @@ void check_tap(const Reference& reference, const std::string& name, CableEnd& en
 
 }   // namespace
 
-void mark_repeated_points(const std::vector<CableDraft>& cables, std::vector<PointDraft>& points) {
-  std::unordered_map<std::string, PointDraft*> table;
-  for (PointDraft& draft : points) table[draft.point.name] = &draft;
-  for (const CableDraft& cable : cables) {
-    if (!cable.repeat) continue;
-    const Reference& end = repeated_end(cable);
-    if (end.name.find('[') != std::string::npos)
-      end.value.refuse("a point that is not itself a copy", "Give the repeated cable a point of its own.");
-    const auto found = table.find(end.name);
-    if (found == table.end()) continue;
-    PointDraft& point = *found->second;
-    if (point.copies > 0)
-      end.value.fail(fmt::format("{} is already repeated by cable {}; expected a point of its own. Add one.", end.name,
-                                 point.repeated_by));
-    point.copies = cable.repeat->count;
-    point.offset = cable.repeat->offset;
-    point.repeated_by = cable.cable.name;
-  }
-}
-
-std::vector<Cable> expand_cables(const std::vector<CableDraft>& drafts, const Names& points, const Names& nets,
-                                 const std::vector<Net>& net_list, Names& names) {
+std::vector<Cable> expand_cables(const std::vector<CableDraft>& drafts, const Scene& scene, SceneNames& names) {
   int next = 0;
   for (const CableDraft& draft : drafts) {
-    names.add(draft.cable.name, next, draft.repeat ? draft.repeat->count : 0);
+    names.cables.add(draft.cable.name, next, draft.repeat ? draft.repeat->count : 0);
     next += draft.copies();
   }
-  const Resolver resolver(points, names, nets, net_list);
+  const Resolver resolver(scene, names);
   std::vector<Cable> cables;
   cables.reserve(static_cast<std::size_t>(next));
   for (const CableDraft& draft : drafts) add_copies(draft, resolver.ends(draft), cables);

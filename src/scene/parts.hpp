@@ -35,6 +35,11 @@ private:
   std::unordered_map<std::string, Place> table_;
 };
 
+/// The names of everything in a scene.
+struct SceneNames {
+  Names types{"cable type"}, points{"point"}, cables{"cable"}, nets{"net"};
+};
+
 struct Reference {
   enum class Kind { point, cable, net } kind;
   std::string name;
@@ -50,13 +55,16 @@ struct Repeat {
   Value value;
 };
 
-struct PointDraft {
-  Point point;
+/// A thing that cables end at and that the `repeat` of one of them copies.
+template <class T>
+struct Draft {
+  T thing;
   Value value;
-  int copies = 0;   ///< 0: not repeated
-  Vector3 offset = Vector3::Zero();
-  std::string repeated_by;
+  int copies = 0;                     ///< 0: not repeated
+  Vector3 offset = Vector3::Zero();   ///< of each copy to the one before [m]
+  std::string repeated_by = {};       ///< the cable
 };
+using PointDraft = Draft<Point>;
 
 struct CableDraft {
   Cable cable;
@@ -69,7 +77,7 @@ struct CableDraft {
 double read_gravity(const Section& top);
 Time read_time(const Section& top);
 /// @pre the scene's time is read.
-Output read_output(const Section& top, const Time&, const Names& points, const Names& cables, const Names& nets);
+Output read_output(const Section& top, const Time&, const SceneNames&);
 std::vector<CableType> read_cable_types(const Section& top, Names& types);
 std::vector<PointDraft> read_points(const Section& top, const Time&);
 Motion read_motion(const Value&, const Vector3& position, const Time&);
@@ -79,15 +87,14 @@ std::vector<Net> read_nets(const Section& top, const Names& types, Names& nets);
 /// @throws InputError if the scene has more nodes than an unknown's number can count.
 void check_size(const std::vector<CableDraft>&, const std::vector<Net>&, const Value& top);
 /// Puts `repeat` of the cables on the points that they repeat.
-void mark_repeated_points(const std::vector<CableDraft>&, std::vector<PointDraft>&);
+void mark_repeated(const std::vector<CableDraft>&, std::vector<PointDraft>&);
 std::vector<Point> expand_points(const std::vector<PointDraft>&, Names& points);
 /// @throws InputError if taps go round in a circle.
 void check_circles(const std::vector<CableDraft>&);
+/// @pre `scene` holds all but its cables.
 /// @throws InputError if a reference leads nowhere or past an end.
-std::vector<Cable> expand_cables(const std::vector<CableDraft>&, const Names& points, const Names& nets,
-                                 const std::vector<Net>&, Names& cables);
+std::vector<Cable> expand_cables(const std::vector<CableDraft>&, const Scene&, SceneNames&);
 /// What can be said only when all ends are known.
-void check_ends(const std::vector<CableDraft>&, const std::vector<Cable>&, const std::vector<PointDraft>&,
-                const std::vector<Point>&, const Time&);
+void check_ends(const std::vector<CableDraft>&, const std::vector<PointDraft>&, const Scene&);
 
 }   // namespace cablenet::scene

@@ -19,7 +19,7 @@ void check_initial(const Section& top) {
 /// Both stand in the history's header, where they could not be told apart.
 void check_distinct(const std::vector<PointDraft>& points, const std::vector<CableDraft>& cables) {
   std::unordered_map<std::string, const PointDraft*> table;
-  for (const PointDraft& point : points) table[point.point.name] = &point;
+  for (const PointDraft& point : points) table[point.thing.name] = &point;
   for (const CableDraft& cable : cables)
     if (const auto found = table.find(cable.cable.name); found != table.end())
       cable.value.fail(fmt::format("{} is also the name of a point (line {}); expected different names. Rename one.",
@@ -39,21 +39,21 @@ Scene read_scene(const std::string& text, const std::string& file) {
   scene.gravity = read_gravity(top);
   check_initial(top);
   scene.time = read_time(top);
-  Names types("cable type"), points("point"), cables("cable"), nets("net");
-  scene.cable_types = read_cable_types(top, types);
+  SceneNames names;
+  scene.cable_types = read_cable_types(top, names.types);
   std::vector<PointDraft> point_drafts = read_points(top, scene.time);
-  const std::vector<CableDraft> cable_drafts = read_cables(top, types);
-  scene.nets = read_nets(top, types, nets);
+  const std::vector<CableDraft> cable_drafts = read_cables(top, names.types);
+  scene.nets = read_nets(top, names.types, names.nets);
   if (cable_drafts.empty() && scene.nets.empty())
     top.map().fail("cables: the scene has neither cables nor nets; expected at least one. Add cables or nets.");
   check_distinct(point_drafts, cable_drafts);
   check_size(cable_drafts, scene.nets, top.map());
   check_circles(cable_drafts);
-  mark_repeated_points(cable_drafts, point_drafts);
-  scene.points = expand_points(point_drafts, points);
-  scene.cables = expand_cables(cable_drafts, points, nets, scene.nets, cables);
-  check_ends(cable_drafts, scene.cables, point_drafts, scene.points, scene.time);
-  scene.output = read_output(top, scene.time, points, cables, nets);
+  mark_repeated(cable_drafts, point_drafts);
+  scene.points = expand_points(point_drafts, names.points);
+  scene.cables = expand_cables(cable_drafts, scene, names);
+  check_ends(cable_drafts, point_drafts, scene);
+  scene.output = read_output(top, scene.time, names);
   return scene;
 }
 

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include "parts.hpp"
 
 namespace cablenet::scene {
@@ -36,7 +34,7 @@ PointDraft read_point(const Named& named, const Time& time) {
   if (const Value* velocity = section.find("velocity")) read_velocity(*velocity, motion, point);
   if (const Value* mass = section.find("mass")) point.mass = read_number(*mass, Sign::not_negative, "kg");
   if (const Value* force = section.find("force")) point.force = read_vector(*force, "N");
-  return {point, named.value, 0, Vector3::Zero(), ""};
+  return {point, named.value};
 }
 
 }   // namespace
@@ -46,23 +44,6 @@ std::vector<PointDraft> read_points(const Section& top, const Time& time) {
   const Value* value = top.find("points");
   if (value == nullptr) return points;
   for (const Named& named : read_named(*value, "a map from names to points")) points.push_back(read_point(named, time));
-  return points;
-}
-
-std::vector<Point> expand_points(const std::vector<PointDraft>& drafts, Names& names) {
-  std::vector<Point> points;
-  for (const PointDraft& draft : drafts) {
-    names.add(draft.point.name, static_cast<int>(points.size()), draft.copies);
-    if (draft.copies == 0) points.push_back(draft.point);
-    for (int k = 0; k < draft.copies; ++k) {
-      Point copy = draft.point;
-      copy.name += fmt::format("[{}]", k);
-      const Vector3 shift = k * draft.offset;
-      copy.position += shift;
-      if (copy.motion) copy.motion = copy.motion->shifted(shift);
-      points.push_back(std::move(copy));
-    }
-  }
   return points;
 }
 

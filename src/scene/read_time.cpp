@@ -38,16 +38,16 @@ void read_scheme(const Section& section, Time& time) {
   }
 }
 
-void read_history(const Value& value, const Names& points, const Names& cables, const Names& nets, Output& output) {
+void read_history(const Value& value, const SceneNames& names, Output& output) {
   std::set<std::pair<HistoryKind, int>> seen;
   for (const Value& item : read_list(value, "a list of names of points and cables")) {
     const std::string name = read_text(item, "a name of a point or a cable; one with brackets in quotes");
-    const auto point = points.find(name);
-    const auto found = point ? point : cables.find(name);
+    const auto point = names.points.find(name);
+    const auto found = point ? point : names.cables.find(name);
     if (!found) {
-      if (nets.has(name)) item.fail(fmt::format("{} is a net; expected points and cables. Remove it.", name));
-      std::vector<std::string> known = points.all();
-      known.insert(known.end(), cables.all().begin(), cables.all().end());
+      if (names.nets.has(name)) item.fail(fmt::format("{} is a net; expected points and cables. Remove it.", name));
+      std::vector<std::string> known = names.points.all();
+      known.insert(known.end(), names.cables.all().begin(), names.cables.all().end());
       item.fail(fmt::format("{} is no point or cable; expected one of: {}.{} Correct or remove it.", name,
                             listed(known), did_you_mean(name, known)));
     }
@@ -95,7 +95,7 @@ Time read_time(const Section& top) {
   return time;
 }
 
-Output read_output(const Section& top, const Time& time, const Names& points, const Names& cables, const Names& nets) {
+Output read_output(const Section& top, const Time& time, const SceneNames& names) {
   Output output;
   output.interval = (time.end - time.start) / 100;
   const Value* value = top.find("output");
@@ -104,7 +104,7 @@ Output read_output(const Section& top, const Time& time, const Names& points, co
   if (const Value* interval = section.find("interval"))
     output.interval = read_number(*interval, Sign::not_negative, "s");
   if (const Value* energy = section.find("energy")) output.energy = read_boolean(*energy);
-  if (const Value* history = section.find("history")) read_history(*history, points, cables, nets, output);
+  if (const Value* history = section.find("history")) read_history(*history, names, output);
   return output;
 }
 
