@@ -37,7 +37,7 @@ private:
 
 /// The names of everything in a scene.
 struct SceneNames {
-  Names types{"cable type"}, points{"point"}, cables{"cable"}, nets{"net"};
+  Names types{"cable type"}, points{"point"}, bodies{"body"}, cables{"cable"}, nets{"net"};
 };
 
 struct Reference {
@@ -65,6 +65,9 @@ struct Draft {
   std::string repeated_by = {};       ///< the cable
 };
 using PointDraft = Draft<Point>;
+struct BodyDraft : Draft<Body> {
+  std::vector<Value> attachments;   ///< one per attachment of the body
+};
 
 struct CableDraft {
   Cable cable;
@@ -80,6 +83,7 @@ Time read_time(const Section& top);
 Output read_output(const Section& top, const Time&, const SceneNames&);
 std::vector<CableType> read_cable_types(const Section& top, Names& types);
 std::vector<PointDraft> read_points(const Section& top, const Time&);
+std::vector<BodyDraft> read_bodies(const Section& top);
 Motion read_motion(const Value&, const Vector3& position, const Time&);
 std::vector<CableDraft> read_cables(const Section& top, const Names& types);
 std::vector<Net> read_nets(const Section& top, const Names& types, Names& nets);
@@ -89,6 +93,7 @@ void check_size(const std::vector<CableDraft>&, const std::vector<Net>&, const V
 /// Puts `repeat` of the cables on the points that they repeat.
 void mark_repeated(const std::vector<CableDraft>&, std::vector<PointDraft>&);
 std::vector<Point> expand_points(const std::vector<PointDraft>&, Names& points);
+std::vector<Body> expand_bodies(const std::vector<BodyDraft>&, Names& bodies);
 /// @throws InputError if taps go round in a circle.
 void check_circles(const std::vector<CableDraft>&);
 /// @pre `scene` holds all but its cables.

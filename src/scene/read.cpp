@@ -16,22 +16,26 @@ void check_initial(const Section& top) {
   read_choice(*initial, {"rest"});
 }
 
-/// Both stand in the history's header, where they could not be told apart.
-void check_distinct(const std::vector<PointDraft>& points, const std::vector<CableDraft>& cables) {
-  std::unordered_map<std::string, const PointDraft*> table;
-  for (const PointDraft& point : points) table[point.thing.name] = &point;
-  for (const CableDraft& cable : cables)
-    if (const auto found = table.find(cable.cable.name); found != table.end())
-      cable.value.fail(fmt::format("{} is also the name of a point (line {}); expected different names. Rename one.",
-                                   cable.cable.name, found->second->value.line));
+/// All stand in the history's header, where they could not be told apart.
+void check_distinct(const std::vector<PointDraft>& points, const std::vector<BodyDraft>& bodies,
+                    const std::vector<CableDraft>& cables) {
+  std::unordered_map<std::string, std::pair<const char*, int>> owners;
+  const auto add = [&](const std::string& name, const char* kind, const Value& value) {
+    const auto [owner, is_new] = owners.try_emplace(name, kind, value.line);
+    if (!is_new)
+      value.fail(fmt::format("{} is also the name of a {} (line {}); expected different names. Rename one.", name,
+                             owner->second.first, owner->second.second));
+  };
+  for (const PointDraft& point : points) add(point.thing.name, "point", point.value);
+  for (const BodyDraft& body : bodies) add(body.thing.name, "body", body.value);
+  for (const CableDraft& cable : cables) add(cable.cable.name, "cable", cable.value);
 }
 
 }   // namespace
 
 Scene read_scene(const std::string& text, const std::string& file) {
-  const Section top(parse_yaml(text, file),
-                    {"title", "environment", "cable_types", "points", "cables", "nets", "initial", "time", "output"},
-                    {{"bodies", "Remove it: end the cables at points with a mass."}});
+  const Section top(parse_yaml(text, file), {"title", "environment", "cable_types", "points", "bodies", "cables",
+                                             "nets", "initial", "time", "output"});
   Scene scene;
   scene.file = file;
   scene.text = text;
@@ -42,15 +46,18 @@ Scene read_scene(const std::string& text, const std::string& file) {
   SceneNames names;
   scene.cable_types = read_cable_types(top, names.types);
   std::vector<PointDraft> point_drafts = read_points(top, scene.time);
+  const std::vector<BodyDraft> body_drafts = read_bodies(top);
   const std::vector<CableDraft> cable_drafts = read_cables(top, names.types);
   scene.nets = read_nets(top, names.types, names.nets);
-  if (cable_drafts.empty() && scene.nets.empty())
-    top.map().fail("cables: the scene has neither cables nor nets; expected at least one. Add cables or nets.");
-  check_distinct(point_drafts, cable_drafts);
+  if (cable_drafts.empty() && scene.nets.empty() && body_drafts.empty())
+    top.map().fail(
+        "cables: the scene has neither cables nor nets nor bodies; expected at least one. Add cables, nets or bodies.");
+  check_distinct(point_drafts, body_drafts, cable_drafts);
   check_size(cable_drafts, scene.nets, top.map());
   check_circles(cable_drafts);
   mark_repeated(cable_drafts, point_drafts);
   scene.points = expand_points(point_drafts, names.points);
+  scene.bodies = expand_bodies(body_drafts, names.bodies);
   scene.cables = expand_cables(cable_drafts, scene, names);
   check_ends(cable_drafts, point_drafts, scene);
   scene.output = read_output(top, scene.time, names);

@@ -70,6 +70,8 @@ CableType read_type(const Named& named) {
 std::vector<CableType> read_cable_types(const Section& top, Names& names) {
   const std::string expected = "a map from names to cable types";
   std::vector<CableType> types;
+  const bool is_needed = top.find("cables") != nullptr || top.find("nets") != nullptr;
+  if (!is_needed && top.find("cable_types") == nullptr) return types;
   for (const Named& named : read_named(top.require("cable_types", expected), expected)) {
     names.add(named.name, static_cast<int>(types.size()), 0);
     types.push_back(read_type(named));

@@ -38,24 +38,32 @@ void read_scheme(const Section& section, Time& time) {
   }
 }
 
+[[noreturn]] void fail_history(const Value& item, const std::string& name, const SceneNames& names) {
+  if (names.nets.has(name)) item.fail(fmt::format("{} is a net; expected points, bodies and cables. Remove it.", name));
+  const std::string stem = name.substr(0, name.find('.'));
+  if (names.bodies.find(stem))
+    item.fail(fmt::format("{} is not allowed; expected {}, the body as a whole. Write {}.", name, stem, stem));
+  std::vector<std::string> known = names.points.all();
+  for (const Names* more : {&names.bodies, &names.cables})
+    known.insert(known.end(), more->all().begin(), more->all().end());
+  item.fail(fmt::format("{} is no point, body or cable; expected one of: {}.{} Correct or remove it.", name,
+                        listed(known), did_you_mean(name, known)));
+}
+
 void read_history(const Value& value, const SceneNames& names, Output& output) {
+  const std::pair<HistoryKind, const Names*> kinds[] = {
+      {HistoryKind::point, &names.points}, {HistoryKind::body, &names.bodies}, {HistoryKind::cable, &names.cables}};
   std::set<std::pair<HistoryKind, int>> seen;
-  for (const Value& item : read_list(value, "a list of names of points and cables")) {
-    const std::string name = read_text(item, "a name of a point or a cable; one with brackets in quotes");
-    const auto point = names.points.find(name);
-    const auto found = point ? point : names.cables.find(name);
-    if (!found) {
-      if (names.nets.has(name)) item.fail(fmt::format("{} is a net; expected points and cables. Remove it.", name));
-      std::vector<std::string> known = names.points.all();
-      known.insert(known.end(), names.cables.all().begin(), names.cables.all().end());
-      item.fail(fmt::format("{} is no point or cable; expected one of: {}.{} Correct or remove it.", name,
-                            listed(known), did_you_mean(name, known)));
-    }
-    const HistoryKind kind = point ? HistoryKind::point : HistoryKind::cable;
-    for (int i = found->first; i < found->first + found->second; ++i) {
-      if (!seen.insert({kind, i}).second)
+  for (const Value& item : read_list(value, "a list of names of points, bodies and cables")) {
+    const std::string name = read_text(item, "a name of a point, a body or a cable; one with brackets in quotes");
+    const auto has_name = [&](const auto& entry) { return entry.second->find(name).has_value(); };
+    const auto found = std::find_if(std::begin(kinds), std::end(kinds), has_name);
+    if (found == std::end(kinds)) fail_history(item, name, names);
+    const auto [first, count] = *found->second->find(name);
+    for (int i = first; i < first + count; ++i) {
+      if (!seen.insert({found->first, i}).second)
         item.fail(fmt::format("{} is already in the list; expected each once. Remove it.", name));
-      output.history.push_back({kind, i});
+      output.history.push_back({found->first, i});
     }
   }
 }

@@ -18,23 +18,22 @@ const Reference& repeated_end(const CableDraft& draft) {
   return other;
 }
 
-template <class T>
-using Drafts = std::unordered_map<std::string, Draft<T>*>;
+template <class D>
+using Table = std::unordered_map<std::string, D*>;
 
-template <class T>
-Drafts<T> by_name(std::vector<Draft<T>>& drafts) {
-  Drafts<T> table;
-  for (Draft<T>& draft : drafts) table[draft.thing.name] = &draft;
+template <class D>
+Table<D> by_name(std::vector<D>& drafts) {
+  Table<D> table;
+  for (D& draft : drafts) table[draft.thing.name] = &draft;
   return table;
 }
 
 /// A name that is not in the table is reported where ends are resolved.
-template <class T>
-void mark(const Drafts<T>& table, const std::string& name, const char* kind, const CableDraft& cable,
-          const Value& end) {
+template <class D>
+void mark(const Table<D>& table, const std::string& name, const char* kind, const CableDraft& cable, const Value& end) {
   const auto found = table.find(name);
   if (found == table.end()) return;
-  Draft<T>& draft = *found->second;
+  D& draft = *found->second;
   if (draft.copies > 0)
     end.fail(fmt::format("{} is already repeated by cable {}; expected a {} of its own. Add one.", name,
                          draft.repeated_by, kind));
@@ -48,14 +47,17 @@ void shift(Point& point, const Vector3& by) {
   if (point.motion) point.motion = point.motion->shifted(by);
 }
 
-template <class T>
-std::vector<T> expand(const std::vector<Draft<T>>& drafts, Names& names) {
-  std::vector<T> things;
-  for (const Draft<T>& draft : drafts) {
+void shift(Body& body, const Vector3& by) { body.position += by; }
+
+template <class D>
+auto expand(const std::vector<D>& drafts, Names& names) {
+  using Thing = decltype(D::thing);
+  std::vector<Thing> things;
+  for (const D& draft : drafts) {
     names.add(draft.thing.name, static_cast<int>(things.size()), draft.copies);
     if (draft.copies == 0) things.push_back(draft.thing);
     for (int k = 0; k < draft.copies; ++k) {
-      T copy = draft.thing;
+      Thing copy = draft.thing;
       copy.name += fmt::format("[{}]", k);
       shift(copy, k * draft.offset);
       things.push_back(std::move(copy));
@@ -67,7 +69,7 @@ std::vector<T> expand(const std::vector<Draft<T>>& drafts, Names& names) {
 }   // namespace
 
 void mark_repeated(const std::vector<CableDraft>& cables, std::vector<PointDraft>& points) {
-  const Drafts<Point> point_table = by_name(points);
+  const Table<PointDraft> point_table = by_name(points);
   for (const CableDraft& cable : cables) {
     if (!cable.repeat) continue;
     const Reference& end = repeated_end(cable);
@@ -80,5 +82,7 @@ void mark_repeated(const std::vector<CableDraft>& cables, std::vector<PointDraft
 std::vector<Point> expand_points(const std::vector<PointDraft>& drafts, Names& points) {
   return expand(drafts, points);
 }
+
+std::vector<Body> expand_bodies(const std::vector<BodyDraft>& drafts, Names& bodies) { return expand(drafts, bodies); }
 
 }   // namespace cablenet::scene

@@ -245,7 +245,7 @@ Value parse_yaml(const std::string& text, const std::string& file) {
   Value top{read_document(text, file), "", 1, &file};
   if (top.node.IsScalar() || top.node.IsSequence()) top.line = top.node.Mark().line + 1;
   if (!top.node.IsMap())
-    top.refuse("a scene: a map with cable_types, points, cables or nets, and time",
+    top.refuse("a scene: a map with cable_types, points, cables, nets or bodies, and time",
                "Write these keys at the top level.");
   return top;
 }
