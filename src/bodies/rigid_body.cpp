@@ -28,10 +28,34 @@ Vec3<S> cross(const Vec3<S>& a, const Vec3<S>& b) {
   return {a(1) * b(2) - a(2) * b(1), a(2) * b(0) - a(0) * b(2), a(0) * b(1) - a(1) * b(0)};
 }
 
-/// W of a conserving step, which turns by 4 atan(dt |W|/4).
+/// 4 atan(x/4)/x by u = x^2; the series is exact to rounding where it is used.
 template <class S>
-Vec3<S> mean_rate(const Unknowns<S, 4>& middle, const Unknowns<S, 4>& rate) {
-  return QuaternionRotation::rates(middle) * rate;
+S arc_by_tangent(const S& u) {
+  const S z = u / 16.0;
+  if (z < 0.01) {
+    S sum(0);
+    for (int k = 8; k >= 0; --k) sum = 1.0 / (2 * k + 1) - z * sum;
+    return sum;
+  }
+  using std::atan2, std::sqrt;
+  const S root = sqrt(z);
+  return atan2(root, S(1.0)) / root;
+}
+
+/// How a conserving step turns.
+template <class S>
+struct MeanTurn {
+  Vec3<S> W;   ///< R1 = R0 exp(dt W)
+  S lever;     ///< tan(dt |W|/2)/(dt |W|/2): on a lever (R0 + R1) r/2 a force then does the work that it does at r
+};
+
+/// The rate at the middle of q0 and q1 is 4 tan(dt |W|/4)/dt along W.
+template <class S>
+MeanTurn<S> mean_turn(double dt, const Unknowns<S, 4>& middle, const Unknowns<S, 4>& rate) {
+  const Vec3<S> w = QuaternionRotation::rates(middle) * rate;
+  const S u = dt * dt * w.squaredNorm();
+  const S arc = arc_by_tangent<S>(u);
+  return {arc * w, 1.0 / ((1.0 - u / 16.0) * arc)};
 }
 
 template <class S>
@@ -39,13 +63,13 @@ Maps<S, 4> conserving_maps(const Properties& body, const Start& start, double dt
   const Unknowns<S, 4> q0 = start.y.cast<S>();
   const Unknowns<S, 4> q1 = 2.0 * m.y - q0;
   const Mat3<S> R0 = start.R.cast<S>(), R1 = QuaternionRotation::matrix(q1);
-  const Vec3<S> mean = mean_rate(m.y, m.dy), w0 = start.w.cast<S>(), w1 = 2.0 * mean - w0;
+  const MeanTurn<S> turn = mean_turn<S>(dt, m.y, m.dy);
+  const Vec3<S> w0 = start.w.cast<S>(), w1 = 2.0 * turn.W - w0;
   Maps<S, 4> maps;
   maps.place = 0.5 * (R0 + R1);
   maps.velocity = (1 / dt) * (R1 - R0);
   maps.acceleration = (1 / dt) * (R1 * skew(w1) - R0 * skew(w0));
-  const S stretch = 1.0 / (1.0 - (dt * dt / 16) * mean.squaredNorm());
-  maps.lever = stretch * maps.place;
+  maps.lever = turn.lever * maps.place;
   const S length = m.y.squaredNorm();
   maps.turn = QuaternionRotation::matrix(m.y) * QuaternionRotation::rates(m.y);
   const Vec3<S> momentum = R1 * (body.inertia.cast<S>() * w1) - (start.R * (body.inertia * start.w)).cast<S>();
@@ -195,7 +219,7 @@ Stage evaluate(const Properties& body, const Start& start, const StepRule& rule,
 
 Vector3 conserving_end(const Start& start, double dt, const Vector4& y1) {
   const Vector4 middle = 0.5 * (start.y + y1), rate = (1 / dt) * (y1 - start.y);
-  return 2 * mean_rate<double>(middle, rate) - start.w;
+  return 2 * mean_turn<double>(dt, middle, rate).W - start.w;
 }
 
 Vector3 torque_of(const Matrix3& lever, const Moments& moments) {

@@ -15,6 +15,8 @@ std::vector<int> places(const std::vector<int>& scene_index, std::size_t count, 
   return place;
 }
 
+constexpr const char* motion_names[] = {"x", "y", "z", "vx", "vy", "vz", "ax", "ay", "az"};
+
 /// Free nodes with one element and no load: nothing pulls there.
 std::vector<bool> bare_ends(const network::Network& network) {
   std::vector<int> pulls(network.position.size(), 0);
@@ -22,6 +24,8 @@ std::vector<bool> bare_ends(const network::Network& network) {
     for (const int node : element.node) ++pulls[at(node)];
   for (const auto& held : network.prescribed) pulls[at(held.node)] += 2;
   for (const auto& load : network.loads) pulls[at(load.node)] += 2;
+  for (const auto& carried : network.carried) pulls[at(carried.node)] += 2;
+  for (const auto& link : network.links) pulls[at(link.node[0])] += 2;
   std::vector<bool> bare(pulls.size());
   std::transform(pulls.begin(), pulls.end(), bare.begin(), [](int count) { return count == 1; });
   return bare;
@@ -42,9 +46,11 @@ Probes::Probes(const scene::Scene& scene, const network::Network& network, const
     for (int side = 0; side < 2; ++side)
       if (const int node = here.elements[at(i)].node[at(side)]; !here.is_free(node))
         where.ends[node].push_back({i, side});
-  for (const auto& item : scene.output.history)
-    item.kind == scene::HistoryKind::point ? add_point(scene, network, item.index, where)
-                                           : add_cable(network, item.index, where);
+  for (const auto& item : scene.output.history) {
+    if (item.kind == scene::HistoryKind::point) add_point(scene, network, item.index, where);
+    if (item.kind == scene::HistoryKind::body) add_body(network, item.index);
+    if (item.kind == scene::HistoryKind::cable) add_cable(network, item.index, where);
+  }
   if (energy_)
     for (const char* name : {"kinetic", "strain", "gravity", "work", "total"})
       columns_.push_back(std::string("energy.") + name);
@@ -62,10 +68,20 @@ void Probes::add_point(const scene::Scene& scene, const network::Network& networ
   if (const auto load = where.load.find(probe.node); load != where.load.end()) probe.load = load->second;
   if (const auto ends = where.ends.find(local); ends != where.ends.end()) probe.ends = ends->second;
   points_.push_back(probe);
-  for (const char* name : {"x", "y", "z", "vx", "vy", "vz", "ax", "ay", "az"})
-    columns_.push_back(point.name + "." + name);
+  for (const char* name : motion_names) columns_.push_back(point.name + "." + name);
   if (probe.prescribed)
     for (const char* name : {"fx", "fy", "fz"}) columns_.push_back(point.name + "." + name);
+}
+
+void Probes::add_body(const network::Network& network, int index) {
+  const partition::LocalNetwork& here = assembler_.network();
+  BodyProbe probe{columns_.size()};
+  for (std::size_t b = 0; b < at(here.own_bodies); ++b)
+    if (here.bodies[b].body == index) probe = {columns_.size(), here.bodies[b].node, b};
+  bodies_.push_back(probe);
+  const std::string& body = network.bodies[at(index)].name;
+  for (const char* name : motion_names) columns_.push_back(body + "." + name);
+  for (const char* name : {"qw", "qx", "qy", "qz", "wx", "wy", "wz"}) columns_.push_back(body + "." + name);
 }
 
 void Probes::add_cable(const network::Network& network, int index, const Places& where) {
@@ -92,21 +108,31 @@ void Probes::put(std::size_t column, const Vector3& value) {
   for (std::size_t k = 0; k < 3; ++k) row_[column + k] += value(static_cast<Eigen::Index>(k));
 }
 
+void Probes::put_motion(std::size_t column, const system::LocalState& state, int node) {
+  put(column, system::LocalState::at(state.x, node));
+  put(column + 3, system::LocalState::at(state.v, node));
+  put(column + 6, system::LocalState::at(state.a, node));
+}
+
 const std::vector<double>& Probes::row(const system::LocalState& state) {
   using system::LocalState;
   const partition::LocalNetwork& here = assembler_.network();
   std::fill(row_.begin(), row_.end(), 0.0);
   for (const PointProbe& probe : points_) {
-    if (probe.node >= 0) {
-      put(probe.column, LocalState::at(state.x, probe.node));
-      put(probe.column + 3, LocalState::at(state.v, probe.node));
-      put(probe.column + 6, LocalState::at(state.a, probe.node));
-    }
+    if (probe.node >= 0) put_motion(probe.column, state, probe.node);
     for (const ElementEnd& end : probe.ends) put(probe.column + 9, end_force(state, end));
     if (probe.prescribed && probe.load >= 0) {
       const auto& [node, mass, force] = here.loads[at(probe.load)];
       put(probe.column + 9, mass * (LocalState::at(state.a, node) + Vector3(0, 0, here.gravity)) - force);
     }
+  }
+  for (const BodyProbe& probe : bodies_) {
+    if (probe.node < 0) continue;
+    put_motion(probe.column, state, probe.node);
+    const auto& [q, w] = state.bodies[probe.body];
+    row_[probe.column + 9] = q.w();
+    put(probe.column + 10, q.vec());
+    put(probe.column + 13, w);
   }
   for (const CableProbe& probe : cables_) {
     const partition::LocalElement& element = here.elements[at(probe.end.element)];

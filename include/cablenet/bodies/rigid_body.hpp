@@ -6,10 +6,10 @@
 /// A rigid body: the position X of its centre of gravity and its attitude, a quaternion q of four unknowns of which
 /// none is ever singular, or the papers' roll, pitch, yaw.  A cable's end is fastened at x = X + R r.
 /// Euler's equations I w' + w x I w = torque (body axes) are weighted by the rates' map w = rates y'.  Where a step is
-/// taken `conserving` (quaternions), they are taken from end to end: with q1 = 2 q_a - q0, W = 2 E(q_a) q_a'/|q_a|^2,
-///   w1 = 2 W - w0,  R1 I w1 - R0 I w0 = dt torque,  |q1| = 1,  levers of forces (R0 + R1) r/(2 - dt^2 |W|^2/8),
-/// so that the kinetic energy changes by exactly what forces at attachments and the torque do, and without them energy
-/// and angular momentum stay.  Otherwise they hold at the stage, and a gauge 4 Is q (g'' + 2 s g' + s^2 g),
+/// taken `conserving` (quaternions), they are taken from end to end:
+///   R1 = R0 exp(dt (w0 + w1)/2),  R1 I w1 - R0 I w0 = dt torque,  |q1| = 1,
+/// levers of forces (R0 + R1) r/2 times tan(a/2)/(a/2), a the angle turned, so that the kinetic energy changes by exactly
+/// what forces at attachments and the torque do, and without them energy and angular momentum stay.  Otherwise they hold at the stage, and a gauge 4 Is q (g'' + 2 s g' + s^2 g),
 /// g = (|q|^2 - 1)/2, s = 0.1/dt, which moves nothing, keeps |q| near 1.
 /// Source: Tonin & Braun, CILAMCE 2020, eqs 13-18; end to end after Simo & Wong, IJNME 31 (1991) 19.
 /// Tests: tests/unit/rigid_body_test.cpp

@@ -13,6 +13,8 @@ namespace cablenet::output {
 
 /// What the scene's `history` and `energy` ask for, gathered from all ranks.
 /// Point: x y z [m], vx vy vz [m/s], ax ay az [m/s^2]; a held or moved one also fx fy fz, the force that holds it [N].
+/// Body: x y z vx vy vz ax ay az of its centre of gravity, then qw qx qy qz, a unit quaternion of continuous sign (body
+/// axes to world), and wx wy wz, the angular velocity in body axes [rad/s].
 /// Cable: tension_from, tension_to [N]: the size of the force that pulls at the cable's end (half an element's weight
 /// and inertia included, so it is second order in the element size), negative in compression; 0 at an end where nothing
 /// is attached. Energy: kinetic, strain, gravity (m g z), work (by moved points and constant forces), total = kinetic +
@@ -43,6 +45,12 @@ private:
     ElementEnd end;
   };
 
+  struct BodyProbe {
+    std::size_t column;
+    int node = -1;        ///< local, where this rank has the body
+    std::size_t body{};   ///< index into LocalNetwork::bodies, likewise
+  };
+
   /// By the scene's numbers: local nodes, this rank's own elements (-1: not here), ends where nothing pulls.
   struct Places {
     std::vector<int> node;
@@ -53,13 +61,16 @@ private:
   };
 
   void add_point(const scene::Scene& scene, const network::Network& network, int index, const Places& where);
+  void add_body(const network::Network& network, int index);
   void add_cable(const network::Network& network, int index, const Places& where);
   Vector3 end_force(const system::LocalState& state, const ElementEnd& end) const;
   void put(std::size_t column, const Vector3& value);
+  void put_motion(std::size_t column, const system::LocalState& state, int node);
 
   const system::Assembler& assembler_;
   std::vector<std::string> columns_;
   std::vector<PointProbe> points_;
+  std::vector<BodyProbe> bodies_;
   std::vector<CableProbe> cables_;
   bool energy_;
   std::vector<double> row_;
