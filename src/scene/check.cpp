@@ -83,15 +83,23 @@ private:
   std::vector<std::vector<std::size_t>> open_;
 };
 
-Vector3 start_position(const Point& point, const Time& time) {
-  return point.motion ? point.motion->at(time.start).x : point.position;
+/// Where an end is drawn, if that is known before the cables are laid.
+std::optional<Vector3> start_position(const CableEnd& end, const Scene& scene) {
+  if (const auto* at = std::get_if<PointEnd>(&end)) {
+    const Point& point = scene.points[static_cast<std::size_t>(at->point)];
+    return point.motion ? point.motion->at(scene.time.start).x : point.position;
+  }
+  if (const auto* at = std::get_if<BodyEnd>(&end)) {
+    const Body& body = scene.bodies[static_cast<std::size_t>(at->body)];
+    return body.position + body.attitude * body.attachments[static_cast<std::size_t>(at->attachment)].offset;
+  }
+  return std::nullopt;
 }
 
-bool ends_coincide(const Cable& cable, const std::vector<Point>& points, const Time& time) {
-  if (const auto* from = std::get_if<PointEnd>(&cable.from))
-    if (const auto* to = std::get_if<PointEnd>(&cable.to))
-      return start_position(points[static_cast<std::size_t>(from->point)], time) ==
-             start_position(points[static_cast<std::size_t>(to->point)], time);
+bool ends_coincide(const Cable& cable, const Scene& scene) {
+  const auto a = start_position(cable.from, scene), b = start_position(cable.to, scene);
+  // A body's attachment is drawn with the rounding of a sum.
+  if (a && b) return (*a - *b).norm() <= 1e-12 * (1 + a->norm());
   if (const auto* from = std::get_if<TapEnd>(&cable.from))
     if (const auto* to = std::get_if<TapEnd>(&cable.to)) return from->cable == to->cable && from->at == to->at;
   if (const auto* from = std::get_if<NetEnd>(&cable.from))
@@ -99,8 +107,16 @@ bool ends_coincide(const Cable& cable, const std::vector<Point>& points, const T
   return false;
 }
 
-void check_straight(const CableDraft& draft, const Cable& cable, const std::vector<Point>& points, const Time& time) {
-  if (cable.shape != Shape::straight || !ends_coincide(cable, points, time)) return;
+void check_one_attachment(const CableDraft& draft, const Cable& cable) {
+  const auto* from = std::get_if<BodyEnd>(&cable.from);
+  const auto* to = std::get_if<BodyEnd>(&cable.to);
+  if (from == nullptr || to == nullptr || from->body != to->body || from->attachment != to->attachment) return;
+  draft.value.fail(fmt::format(
+      "both its ends are at {}; expected two places. Move one to a point or another attachment.", draft.from.name));
+}
+
+void check_straight(const CableDraft& draft, const Cable& cable, const Scene& scene) {
+  if (cable.shape != Shape::straight || !ends_coincide(cable, scene)) return;
   draft.value.fail(
       fmt::format("its ends, {} and {}, are at the same place and its shape is straight; expected a line of "
                   "some length. Move an end, or give shape: a polyline [[x, y, z], ...].",
@@ -139,7 +155,8 @@ void check_ends(const std::vector<CableDraft>& drafts, const std::vector<PointDr
   for (const CableDraft& draft : drafts) {
     for (int k = 0; k < draft.copies(); ++k, ++i) {
       const Cable& cable = scene.cables[i];
-      check_straight(draft, cable, scene.points, scene.time);
+      check_one_attachment(draft, cable);
+      check_straight(draft, cable, scene);
       for (const CableEnd* end : {&cable.from, &cable.to})
         if (const auto* point = std::get_if<PointEnd>(end)) is_used[static_cast<std::size_t>(point->point)] = true;
     }

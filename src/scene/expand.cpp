@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "parts.hpp"
+#include "spelling.hpp"
 
 namespace cablenet::scene {
 
@@ -27,10 +30,59 @@ private:
     if (reference.kind == Kind::cable) return TapEnd{names_.cables.one(reference.value, reference.name), reference.at};
     if (reference.kind == Kind::net) return net_end(reference);
     if (is_repeated && names_.points.has(reference.name)) return PointEnd{names_.points.find(reference.name)->first};
-    if (!names_.points.find(reference.name) && reference.name.find('.') != std::string::npos)
-      reference.value.fail(
-          fmt::format("{}: an attachment of a body is not supported yet. Use a point.", reference.name));
-    return PointEnd{names_.points.one(reference.value, reference.name)};
+    if (names_.points.find(reference.name)) return PointEnd{names_.points.one(reference.value, reference.name)};
+    const auto parts = split_attachment(reference.name);
+    const bool is_whole = parts && !parts->body.empty() && !parts->attachment.empty();
+    if (is_whole) return body_end(reference.value, *parts, is_repeated);
+    fail_name(reference.value, parts && parts->attachment.empty() ? parts->body : reference.name);
+  }
+
+  BodyEnd body_end(const Value& value, const AttachmentName& parts, bool is_repeated) const {
+    if (names_.points.find(parts.body))
+      value.fail(fmt::format("{} is a point, which has no attachments; expected its name alone. Write {}.", parts.body,
+                             parts.body));
+    const bool is_all = is_repeated && names_.bodies.has(parts.body);
+    const int index = is_all ? names_.bodies.find(parts.body)->first : names_.bodies.one(value, parts.body);
+    const Body& body = scene_.bodies[static_cast<std::size_t>(index)];
+    const auto& all = body.attachments;
+    const auto found = std::find_if(all.begin(), all.end(), [&](const auto& a) { return a.name == parts.attachment; });
+    if (found != all.end()) return {index, static_cast<int>(found - all.begin())};
+    if (all.empty())
+      value.fail(fmt::format("{} has no attachments; expected {} among them. Add attachments: {{{}: [x, y, z]}} to it.",
+                             parts.body, parts.attachment, parts.attachment));
+    const std::vector<std::string> known = attachments_of(body);
+    value.fail(fmt::format("{} has no attachment {}; expected one of: {}.{} Correct the name or add it.", parts.body,
+                           parts.attachment, listed(known), did_you_mean(body.name + "." + parts.attachment, known)));
+  }
+
+  static std::vector<std::string> attachments_of(const Body& body) {
+    std::vector<std::string> names;
+    for (const Attachment& attachment : body.attachments) names.push_back(body.name + "." + attachment.name);
+    return names;
+  }
+
+  /// Of a name without attachment.
+  [[noreturn]] void fail_name(const Value& value, const std::string& name) const {
+    if (const auto body = names_.bodies.find(name)) fail_body(value, name, body->first);
+    if (scene_.bodies.empty() || names_.points.has(name.substr(0, name.find('[')))) names_.points.one(value, name);
+    std::vector<std::string> known = names_.points.all();
+    for (const Body& body : scene_.bodies)
+      for (std::string& attachment : attachments_of(body)) known.push_back(std::move(attachment));
+    std::vector<std::string> similar = known;
+    similar.insert(similar.end(), names_.bodies.all().begin(), names_.bodies.all().end());
+    value.fail(fmt::format("{} is no point and no attachment; expected one of: {}.{} Correct the name or add it.", name,
+                           listed(known), did_you_mean(name, similar)));
+  }
+
+  [[noreturn]] void fail_body(const Value& value, const std::string& name, int index) const {
+    const Body& body = scene_.bodies[static_cast<std::size_t>(index)];
+    if (body.attachments.empty())
+      value.fail(
+          fmt::format("{} is a body without attachments; expected one of a body's attachments. Add attachments: "
+                      "{{top: [0, 0, 0]}} to it and write {}.top.",
+                      name, body.name));
+    value.fail(fmt::format("{} is a body; expected one of its attachments: {}. Name one of them.", name,
+                           listed(attachments_of(body))));
   }
 
   CableEnd net_end(const Reference& reference) const {
@@ -49,6 +101,7 @@ private:
 void move_end(CableEnd& end, const Repeat& repeat, int k) {
   if (auto* tap = std::get_if<TapEnd>(&end)) tap->at += k * repeat.every;
   if (auto* point = std::get_if<PointEnd>(&end)) point->point += k;
+  if (auto* on_body = std::get_if<BodyEnd>(&end)) on_body->body += k;
 }
 
 void add_copies(const CableDraft& draft, const Ends& ends, std::vector<Cable>& cables) {

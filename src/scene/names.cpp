@@ -33,6 +33,12 @@ std::string copies_of(const std::string& name, int copies) {
 
 }   // namespace
 
+std::optional<AttachmentName> split_attachment(const std::string& text) {
+  const std::size_t dot = text.find('.');
+  if (dot == std::string::npos) return std::nullopt;
+  return AttachmentName{text.substr(0, dot), text.substr(dot + 1)};
+}
+
 void Names::add(const std::string& name, int first, int copies) {
   table_[name] = {first, copies};
   names_.push_back(name);

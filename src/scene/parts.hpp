@@ -40,8 +40,15 @@ struct SceneNames {
   Names types{"cable type"}, points{"point"}, bodies{"body"}, cables{"cable"}, nets{"net"};
 };
 
+/// The parts of "fish[2].top".
+struct AttachmentName {
+  std::string body, attachment;
+};
+/// Nothing if `text` has no dot.
+std::optional<AttachmentName> split_attachment(const std::string& text);
+
 struct Reference {
-  enum class Kind { point, cable, net } kind;
+  enum class Kind { named, cable, net } kind;   ///< named: a point, or body.attachment
   std::string name;
   double at = 0;               ///< along a cable [m]
   std::array<int, 2> node{};   ///< of a net
@@ -90,8 +97,8 @@ std::vector<Net> read_nets(const Section& top, const Names& types, Names& nets);
 
 /// @throws InputError if the scene has more nodes than an unknown's number can count.
 void check_size(const std::vector<CableDraft>&, const std::vector<Net>&, const Value& top);
-/// Puts `repeat` of the cables on the points that they repeat.
-void mark_repeated(const std::vector<CableDraft>&, std::vector<PointDraft>&);
+/// Puts `repeat` of the cables on the points and bodies that they repeat.
+void mark_repeated(const std::vector<CableDraft>&, std::vector<PointDraft>&, std::vector<BodyDraft>&);
 std::vector<Point> expand_points(const std::vector<PointDraft>&, Names& points);
 std::vector<Body> expand_bodies(const std::vector<BodyDraft>&, Names& bodies);
 /// @throws InputError if taps go round in a circle.

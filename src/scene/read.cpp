@@ -46,7 +46,7 @@ Scene read_scene(const std::string& text, const std::string& file) {
   SceneNames names;
   scene.cable_types = read_cable_types(top, names.types);
   std::vector<PointDraft> point_drafts = read_points(top, scene.time);
-  const std::vector<BodyDraft> body_drafts = read_bodies(top);
+  std::vector<BodyDraft> body_drafts = read_bodies(top);
   const std::vector<CableDraft> cable_drafts = read_cables(top, names.types);
   scene.nets = read_nets(top, names.types, names.nets);
   if (cable_drafts.empty() && scene.nets.empty() && body_drafts.empty())
@@ -55,7 +55,7 @@ Scene read_scene(const std::string& text, const std::string& file) {
   check_distinct(point_drafts, body_drafts, cable_drafts);
   check_size(cable_drafts, scene.nets, top.map());
   check_circles(cable_drafts);
-  mark_repeated(cable_drafts, point_drafts);
+  mark_repeated(cable_drafts, point_drafts, body_drafts);
   scene.points = expand_points(point_drafts, names.points);
   scene.bodies = expand_bodies(body_drafts, names.bodies);
   scene.cables = expand_cables(cable_drafts, scene, names);

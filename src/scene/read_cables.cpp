@@ -6,10 +6,11 @@ namespace cablenet::scene {
 
 namespace {
 
-const char* const end_expected = "a point's name, {cable: NAME, at: s [m]} or {net: NAME, node: [i, j]}";
+const char* const end_expected =
+    "a point's name, BODY.ATTACHMENT, {cable: NAME, at: s [m]} or {net: NAME, node: [i, j]}";
 
 Reference read_reference(const Value& value) {
-  if (value.node.IsScalar()) return {Reference::Kind::point, value.node.Scalar(), 0, {}, value};
+  if (value.node.IsScalar()) return {Reference::Kind::named, value.node.Scalar(), 0, {}, value};
   if (!value.node.IsMap()) value.refuse(end_expected, "Write one of these.");
   const Section section(value, {"cable", "at", "net", "node"});
   const Value* cable = section.find("cable");

@@ -11,10 +11,10 @@ using Kind = Reference::Kind;
 const Reference& repeated_end(const CableDraft& draft) {
   const bool one_tap = (draft.from.kind == Kind::cable) != (draft.to.kind == Kind::cable);
   const Reference& other = draft.from.kind == Kind::cable ? draft.to : draft.from;
-  if (!one_tap || other.kind != Kind::point)
+  if (!one_tap || other.kind != Kind::named)
     draft.repeat->value.fail(
         "this cable cannot be repeated; expected one end {cable: NAME, at: s} and one end at a "
-        "point. Change its ends or remove repeat.");
+        "point or a body's attachment. Change its ends or remove repeat.");
   return other;
 }
 
@@ -68,14 +68,17 @@ auto expand(const std::vector<D>& drafts, Names& names) {
 
 }   // namespace
 
-void mark_repeated(const std::vector<CableDraft>& cables, std::vector<PointDraft>& points) {
+void mark_repeated(const std::vector<CableDraft>& cables, std::vector<PointDraft>& points,
+                   std::vector<BodyDraft>& bodies) {
   const Table<PointDraft> point_table = by_name(points);
+  const Table<BodyDraft> body_table = by_name(bodies);
   for (const CableDraft& cable : cables) {
     if (!cable.repeat) continue;
     const Reference& end = repeated_end(cable);
     if (end.name.find('[') != std::string::npos)
-      end.value.refuse("a point that is not itself a copy", "Give the repeated cable a point of its own.");
+      end.value.refuse("a point or a body that is not itself a copy", "Give the repeated cable one of its own.");
     mark(point_table, end.name, "point", cable, end.value);
+    if (const auto parts = split_attachment(end.name)) mark(body_table, parts->body, "body", cable, end.value);
   }
 }
 

@@ -128,5 +128,23 @@ TEST(ReadBodies, History) {
   EXPECT_EQ(scene.output.history[0].index, 1);
 }
 
+TEST(ReadBodies, CablesNameCopies) {
+  const Scene scene = read_scene(
+      "cable_types: {rope: {mass_per_length: 1, axial_stiffness: 1}}\n"
+      "points: {a: {position: [0, 0, 0], motion: fixed}, b: {position: [9, 0, 0], motion: fixed}}\n"
+      "bodies: {fin: {mass: 1, position: [2, 0, -3], attachments: {top: [0, 0, 0], low: [0, 0, -1]}}}\n"
+      "cables:\n"
+      "  tie: {type: rope, from: \"fin[0].low\", to: \"fin[1].top\", elements: 1}\n"
+      "  trunk: {type: rope, from: a, to: b, elements: 9}\n"
+      "  drop: {type: rope, from: fin.top, to: {cable: trunk, at: 2}, elements: 1,\n"
+      "         repeat: {count: 2, every: 2, offset: [2, 0, 0]}}\n" +
+          time,
+      "body.yaml");
+  EXPECT_EQ(std::get<BodyEnd>(scene.cables[0].from).body, 0);
+  EXPECT_EQ(std::get<BodyEnd>(scene.cables[0].from).attachment, 1);
+  EXPECT_EQ(std::get<BodyEnd>(scene.cables[0].to).body, 1);
+  EXPECT_EQ(std::get<BodyEnd>(scene.cables[3].from).body, 1);
+}
+
 }   // namespace
 }   // namespace cablenet::scene

@@ -146,6 +146,33 @@ TEST(Read, RepeatedCablesAreTappedInEqualSteps) {
   EXPECT_EQ(std::get<PointEnd>(riser.from).point, index_of(scene.points, "heaved[2]"));
 }
 
+TEST(Read, CablesEndAtBodies) {
+  const Scene scene = everything();
+  const Cable& towline = scene.cables.at(static_cast<std::size_t>(index_of(scene.cables, "towline")));
+  EXPECT_EQ(std::get<PointEnd>(towline.from).point, index_of(scene.points, "pin"));
+  EXPECT_EQ(std::get<BodyEnd>(towline.to).body, index_of(scene.bodies, "fish"));
+  EXPECT_EQ(std::get<BodyEnd>(towline.to).attachment, 0);
+  const Cable& sling = scene.cables.at(static_cast<std::size_t>(index_of(scene.cables, "sling")));
+  EXPECT_EQ(std::get<BodyEnd>(sling.from).attachment, 1);
+  EXPECT_EQ(std::get<BodyEnd>(sling.to).body, index_of(scene.bodies, "buoy"));
+}
+
+TEST(Read, RepeatedBodiesStandInPlaceOfTheirOriginal) {
+  const Scene scene = everything();
+  ASSERT_EQ(scene.bodies.size(), 5u);
+  EXPECT_EQ(scene.bodies[1].name, "lead[0]");
+  EXPECT_EQ(scene.bodies[4].name, "buoy");
+  const Body& last = scene.bodies[3];
+  EXPECT_EQ(last.name, "lead[2]");
+  EXPECT_EQ(last.position, Vector3(40, 0, -10.1));
+  EXPECT_EQ(last.velocity, Vector3(1, 0, 0));
+  EXPECT_EQ(last.mass, 5);
+  EXPECT_EQ(last.attachments.at(0).offset, Vector3(0, 0, 0.1));
+  const Cable& dropper = scene.cables.at(static_cast<std::size_t>(index_of(scene.cables, "droppers[2]")));
+  EXPECT_EQ(std::get<TapEnd>(dropper.from).at, 40);
+  EXPECT_EQ(std::get<BodyEnd>(dropper.to).body, 3);
+}
+
 TEST(Read, ACableMayNameCopiesAndComeBeforeItsHost) {
   const Scene scene = everything();
   const Cable& hanger = scene.cables[0];
@@ -201,11 +228,14 @@ TEST(Read, OutputAndItsDefaults) {
   const Scene scene = everything();
   EXPECT_EQ(scene.output.interval, 1e-2);
   EXPECT_TRUE(scene.output.energy);
-  ASSERT_EQ(scene.output.history.size(), 8u);
+  ASSERT_EQ(scene.output.history.size(), 12u);
   EXPECT_EQ(scene.output.history[0].kind, HistoryKind::point);
   EXPECT_EQ(scene.output.history[4].index, index_of(scene.points, "free[4]"));
   EXPECT_EQ(scene.output.history[5].kind, HistoryKind::cable);
   EXPECT_EQ(scene.output.history[5].index, index_of(scene.cables, "branch[3]"));
+  EXPECT_EQ(scene.output.history[10].kind, HistoryKind::body);
+  EXPECT_EQ(scene.output.history[10].index, index_of(scene.bodies, "lead[2]"));
+  EXPECT_EQ(scene.output.history[11].index, index_of(scene.bodies, "fish"));
   const Output none = with_time("end: 4, step: 0.1").output;
   EXPECT_EQ(none.interval, 0.04);
   EXPECT_TRUE(none.history.empty());
