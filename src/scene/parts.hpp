@@ -108,5 +108,7 @@ void check_circles(const std::vector<CableDraft>&);
 std::vector<Cable> expand_cables(const std::vector<CableDraft>&, const Scene&, SceneNames&);
 /// What can be said only when all ends are known.
 void check_ends(const std::vector<CableDraft>&, const std::vector<PointDraft>&, const Scene&);
+/// What is allowed of bodies but perhaps not meant.  @pre the scene is expanded.
+std::vector<std::string> body_notes(const std::vector<BodyDraft>&, const std::vector<CableDraft>&, const Scene&);
 
 }   // namespace cablenet::scene

@@ -60,6 +60,7 @@ Scene read_scene(const std::string& text, const std::string& file) {
   scene.bodies = expand_bodies(body_drafts, names.bodies);
   scene.cables = expand_cables(cable_drafts, scene, names);
   check_ends(cable_drafts, point_drafts, scene);
+  scene.notes = body_notes(body_drafts, cable_drafts, scene);
   scene.output = read_output(top, scene.time, names);
   return scene;
 }

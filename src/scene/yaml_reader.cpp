@@ -122,14 +122,16 @@ std::string Value::shown() const {
   return node.Tag() == "!" ? "the text \"" + text + "\"" : text;
 }
 
-void Value::fail(const std::string& message) const {
+std::string Value::said(const std::string& message) const {
   const std::string key = path.size() > longest_path ? path.substr(0, longest_path) + "..." : path;
   std::string text = fmt::format("{}: {}{}{}", where(), key, key.empty() ? "" : ": ", message);
   // A name or a value of the file may hold line ends; a message is one line.
   std::replace_if(
       text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
-  throw InputError(text);
+  return text;
 }
+
+void Value::fail(const std::string& message) const { throw InputError(said(message)); }
 
 void Value::refuse(const std::string& expected, const std::string& advice) const {
   fail(fmt::format("{} is not allowed; expected {}.{}{}", shown(), expected, advice.empty() ? "" : " ", advice));

@@ -17,9 +17,10 @@ struct Value {
   int line = 1;                        ///< of the value, or of its key where the value is a list, a map or nothing
   const std::string* file = nullptr;   ///< outlives the value
 
-  std::string where() const;   ///< "file:line"
-  std::string shown() const;   ///< as messages cite it
-  /// @throws InputError "file:line: path: message", always.
+  std::string where() const;                            ///< "file:line"
+  std::string shown() const;                            ///< as messages cite it
+  std::string said(const std::string& message) const;   ///< "file:line: path: message", one line
+  /// @throws InputError with what is said, always.
   [[noreturn]] void fail(const std::string& message) const;
   /// @throws InputError "file:line: path: VALUE is not allowed; expected EXPECTED. ADVICE", always.
   [[noreturn]] void refuse(const std::string& expected, const std::string& advice = "") const;

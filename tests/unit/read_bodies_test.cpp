@@ -146,5 +146,71 @@ TEST(ReadBodies, CablesNameCopies) {
   EXPECT_EQ(std::get<BodyEnd>(scene.cables[3].from).body, 1);
 }
 
+/// The notes of a scene with these bodies, a held point a and a cable `trunk` of 9 m from it to fish.top.
+std::vector<std::string> notes(const std::string& bodies, const std::string& cables = "") {
+  return read_scene(
+             "cable_types: {rope: {mass_per_length: 1, axial_stiffness: 1}}\n"
+             "points: {a: {position: [0, 0, 0], motion: fixed}}\n"
+             "bodies:\n" +
+                 bodies + "cables:\n  trunk: {type: rope, from: a, to: fish.top, elements: 9, length: 9}\n" + cables +
+                 time,
+             "body.yaml")
+      .notes;
+}
+
+using Notes = std::vector<std::string>;
+const std::string fish = "  fish: {mass: 1, position: [9, 0, 0], inertia: [1, 1, 1], attachments: {top: [0, 0, 1]}}\n";
+
+TEST(ReadBodies, NothingToNote) { EXPECT_EQ(notes(fish), Notes{}); }
+
+TEST(ReadBodies, NotesOfAttachments) {
+  const std::string two =
+      "  fish:\n    mass: 1\n    position: [9, 0, 0]\n    inertia: [1, 1, 1]\n"
+      "    attachments:\n      top: [0, 0, 1]\n      tail:\n        [-1, 0, 0]\n";
+  EXPECT_EQ(notes(two), Notes{"body.yaml:10: bodies.fish.attachments.tail: no cable ends at this attachment"});
+  EXPECT_EQ(notes(two,
+                  "  other: {type: rope, from: a, to: fish.top, elements: 1}\n"
+                  "  belly: {type: rope, from: fish.top, to: fish.tail, elements: 1}\n"),
+            (Notes{"body.yaml:9: bodies.fish.attachments.top: fish.top carries 3 cables: trunk, other, belly; each is "
+                   "hinged there by itself",
+                   "body.yaml:15: cables.belly: its ends, fish.top and fish.tail, are on one body; end it elsewhere if "
+                   "it should hold the body to something"}));
+}
+
+TEST(ReadBodies, NotesOfFreeBodies) {
+  EXPECT_EQ(notes(fish + "  stone: {mass: 1, position: [0, 0, 0]}\n"),
+            Notes{"body.yaml:5: bodies.stone: no cable is attached to it: it moves freely"});
+  EXPECT_EQ(notes(fish + "  stone: {mass: 1, position: [0, 0, 0], attachments: {a: [0, 0, 0], b: [0, 0, 1]}}\n"),
+            Notes{"body.yaml:5: bodies.stone: no cable is attached to it: it moves freely; to hold it, end a cable at "
+                  "stone.a, stone.b"});
+}
+
+TEST(ReadBodies, NotesOfPointMassesAndLinks) {
+  EXPECT_EQ(
+      notes("  fish: {mass: 1, position: [9, 0, 0], attachments: {top: [0, 0, 1]}}\n"),
+      Notes{"body.yaml:4: bodies.fish.attachments.top: a body without inertia does not turn: the attachment keeps "
+            "its offset in fixed directions; give inertia if it should swing"});
+  EXPECT_EQ(notes("  fish: {mass: 1, position: [9, 0, 0], inertia: [1, 1, 1], attachments: {top: [0, 0, 0]},\n"
+                  "         coupling: {rigid_link: {axial_stiffness: 1e9}}}\n"),
+            Notes{"body.yaml:4: bodies.fish.attachments.top: it is at the centre of gravity and a link needs a length: "
+                  "this attachment is coupled kinematically"});
+  EXPECT_EQ(notes("  fish: {mass: 1, position: [9, 0, 0], attachments: {top: [0, 0, 0]}}\n"), Notes{});
+}
+
+TEST(ReadBodies, RepeatedBodiesHaveOneNote) {
+  const std::string fin = "  fin: {mass: 1, position: [2, 0, -3], attachments: {top: [0, 0, 0], low: [0, 0, -1]}}\n";
+  const std::string drop =
+      "  drop: {type: rope, from: {cable: trunk, at: 2}, to: fin.top, elements: 1,\n"
+      "         repeat: {count: 3, every: 2, offset: [2, 0, 0]}}\n";
+  EXPECT_EQ(notes(fish + fin, drop),
+            Notes{"body.yaml:5: bodies.fin.attachments.low: no cable ends at this attachment"});
+  EXPECT_EQ(
+      notes(fish + fin, drop + "  tie: {type: rope, from: \"fin[0].low\", to: \"fin[1].top\", elements: 1}\n"),
+      (Notes{"body.yaml:5: bodies.fin.attachments.top: fin[1].top carries 2 cables: drop[1], tie; each is hinged "
+             "there by itself",
+             "body.yaml:5: bodies.fin.attachments.low: a body without inertia does not turn: the attachment keeps "
+             "its offset in fixed directions; give inertia if it should swing"}));
+}
+
 }   // namespace
 }   // namespace cablenet::scene

@@ -1,0 +1,121 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "parts.hpp"
+#include "spelling.hpp"
+
+namespace cablenet::scene {
+
+namespace {
+
+/// The cables that end at each attachment of each body.
+class Usage {
+public:
+  explicit Usage(const Scene& scene) : scene_(scene) {
+    std::size_t attachments = 0;
+    for (const Body& body : scene.bodies) {
+      first_.push_back(attachments);
+      attachments += body.attachments.size();
+    }
+    cables_.resize(attachments);
+    for (std::size_t i = 0; i < scene.cables.size(); ++i)
+      for (const CableEnd* end : {&scene.cables[i].from, &scene.cables[i].to})
+        if (const auto* at = std::get_if<BodyEnd>(end))
+          cables_[first_[static_cast<std::size_t>(at->body)] + static_cast<std::size_t>(at->attachment)].push_back(i);
+  }
+
+  std::vector<std::string> names(std::size_t body, std::size_t attachment) const {
+    std::vector<std::string> names;
+    for (const std::size_t i : cables_[first_[body] + attachment]) names.push_back(scene_.cables[i].name);
+    return names;
+  }
+  std::size_t count(std::size_t body, std::size_t attachment) const {
+    return cables_[first_[body] + attachment].size();
+  }
+
+private:
+  const Scene& scene_;
+  std::vector<std::size_t> first_;   ///< per body, its first attachment in cables_
+  std::vector<std::vector<std::size_t>> cables_;
+};
+
+/// A draft's bodies are alike, so one of them speaks for all.
+class BodyNotes {
+public:
+  BodyNotes(const BodyDraft& draft, std::size_t first, const Scene& scene, const Usage& usage)
+      : draft_(draft), first_(first), scene_(scene), usage_(usage) {}
+
+  void add(std::vector<std::string>& notes) const {
+    const auto& attachments = draft_.thing.attachments;
+    std::vector<std::string> unused;
+    for (std::size_t k = 0; k < attachments.size(); ++k)
+      if (usage_.count(busiest(k), k) == 0) unused.push_back(draft_.thing.name + "." + attachments[k].name);
+    if (unused.size() == attachments.size()) {
+      const std::string remedy = unused.empty() ? "" : fmt::format("; to hold it, end a cable at {}", listed(unused));
+      notes.push_back(draft_.value.said(fmt::format("no cable is attached to it: it moves freely{}", remedy)));
+      return;
+    }
+    for (std::size_t k = 0; k < attachments.size(); ++k) add(k, notes);
+  }
+
+private:
+  void add(std::size_t k, std::vector<std::string>& notes) const {
+    const Body& body = draft_.thing;
+    const auto note = [&](const std::string& text) { notes.push_back(draft_.attachments[k].said(text)); };
+    const bool is_central = body.attachments[k].offset.isZero(0);
+    const std::vector<std::string> cables = usage_.names(busiest(k), k);
+    if (cables.empty()) {
+      note("no cable ends at this attachment");
+      return;
+    }
+    if (cables.size() > 1)
+      note(fmt::format("{}.{} carries {} cables: {}; each is hinged there by itself", scene_.bodies[busiest(k)].name,
+                       body.attachments[k].name, cables.size(), listed(cables)));
+    if (!body.inertia && !is_central)
+      note(
+          "a body without inertia does not turn: the attachment keeps its offset in fixed directions; give inertia if "
+          "it should swing");
+    if (body.link_stiffness && is_central)
+      note("it is at the centre of gravity and a link needs a length: this attachment is coupled kinematically");
+  }
+
+  /// The copy on whose k-th attachment most cables end.
+  std::size_t busiest(std::size_t k) const {
+    std::size_t best = first_;
+    for (std::size_t i = first_; i < first_ + static_cast<std::size_t>(std::max(draft_.copies, 1)); ++i)
+      if (usage_.count(i, k) > usage_.count(best, k)) best = i;
+    return best;
+  }
+
+  const BodyDraft& draft_;
+  std::size_t first_;
+  const Scene& scene_;
+  const Usage& usage_;
+};
+
+}   // namespace
+
+std::vector<std::string> body_notes(const std::vector<BodyDraft>& bodies, const std::vector<CableDraft>& cables,
+                                    const Scene& scene) {
+  std::vector<std::string> notes;
+  const Usage usage(scene);
+  std::size_t first = 0;
+  for (const BodyDraft& draft : bodies) {
+    BodyNotes(draft, first, scene, usage).add(notes);
+    first += static_cast<std::size_t>(std::max(draft.copies, 1));
+  }
+  first = 0;
+  for (const CableDraft& draft : cables) {
+    const auto* from = std::get_if<BodyEnd>(&scene.cables[first].from);
+    const auto* to = std::get_if<BodyEnd>(&scene.cables[first].to);
+    if (from != nullptr && to != nullptr && from->body == to->body)
+      notes.push_back(draft.value.said(
+          fmt::format("its ends, {} and {}, are on one body; end it elsewhere if it should hold the body to something",
+                      draft.from.name, draft.to.name)));
+    first += static_cast<std::size_t>(draft.copies());
+  }
+  return notes;
+}
+
+}   // namespace cablenet::scene
