@@ -31,7 +31,7 @@ void sync_directory(const fs::path& directory) {
 
 bool is_series_file(const std::string& name) {
   static const std::regex pattern(
-      R"(cables\.xmf(\.tmp)?|result\.h5(\.tmp)?|mesh\.h5(\.part)?|frames_\d{4,}\.h5(\.part)?)");
+      R"((cables|bodies)\.xmf(\.tmp)?|result\.h5(\.tmp)?|mesh\.h5(\.part)?|frames_\d{4,}\.h5(\.part)?)");
   return std::regex_match(name, pattern);
 }
 
@@ -68,18 +68,18 @@ void prepare_directory(const fs::path& directory) {
   std::error_code error;
   fs::create_directories(directory, error);
   if (error) fail("create directory", directory, error.value());
-  // The index goes first: it never names a file that is not there.
-  fs::remove(directory / "cables.xmf", error);
-  if (error) fail("remove", directory / "cables.xmf", error.value());
+  const auto remove = [&error](const fs::path& path) {
+    fs::remove(path, error);
+    if (error) fail("remove", path, error.value());
+  };
+  // The indices go first: they never name a file that is not there.
+  for (const char* index : {"cables.xmf", "bodies.xmf"}) remove(directory / index);
   std::vector<fs::path> stale;
   auto entry = fs::directory_iterator(directory, error);
   for (; !error && entry != fs::directory_iterator(); entry.increment(error))
     if (is_series_file(entry->path().filename())) stale.push_back(entry->path());
   if (error) fail("list", directory, error.value());
-  for (const auto& path : stale) {
-    fs::remove(path, error);
-    if (error) fail("remove", path, error.value());
-  }
+  for (const auto& path : stale) remove(path);
   if (access(directory.c_str(), W_OK | X_OK) != 0) fail("write into", directory, errno);
 }
 

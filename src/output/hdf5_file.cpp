@@ -53,7 +53,7 @@ hid_t string_type(std::size_t length) {
 }
 
 void require_block(const std::string& name, const Rows& rows, int columns, std::size_t given) {
-  if (static_cast<std::int64_t>(given) != rows.local * columns)
+  if (static_cast<std::int64_t>(given) != rows.local * std::max(1, columns))
     throw std::logic_error(fmt::format("{}: {} values for {} rows of {}", name, given, rows.local, columns));
 }
 
@@ -95,8 +95,8 @@ void Hdf5File::write_rows(const std::string& name, const Rows& rows, int columns
 
 void Hdf5File::write_block(const std::string& name, const Rows& rows, int columns, hid_t type, const void* values) {
   using Shape = std::array<hsize_t, 2>;
-  const int rank = columns > 1 ? 2 : 1;
-  const auto width = static_cast<hsize_t>(columns);
+  const int rank = columns == one_dimensional ? 1 : 2;
+  const auto width = static_cast<hsize_t>(std::max(1, columns));
   const Shape whole{static_cast<hsize_t>(rows.total), width};
   const Shape block{static_cast<hsize_t>(rows.local), width};
   const Shape start{static_cast<hsize_t>(rows.first), 0};
@@ -125,7 +125,7 @@ void Hdf5File::write_strings(const std::string& name, const Rows& rows, const st
   std::string padded;
   for (const auto& value : values) padded += value + std::string(length - value.size(), '\0');
   const Handle type(check(string_type(length), name), H5Tclose);
-  write_block(name, rows, 1, type, padded.data());
+  write_block(name, rows, one_dimensional, type, padded.data());
 }
 
 void Hdf5File::set_attribute(const std::string& object, const std::string& name, double value) {

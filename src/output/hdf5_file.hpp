@@ -20,6 +20,9 @@ struct Rows {
   std::int64_t local;
 };
 
+/// A value for each row, and no second dimension.
+constexpr int one_dimensional = 0;
+
 /// A new HDF5 file.  Every member but the destructor is collective over the communicator; objects are named by
 /// absolute paths.  All throw OutputError, possibly on one rank alone.
 class Hdf5File {
@@ -33,7 +36,7 @@ public:
 
   void create_group(const std::string& name);
 
-  /// A contiguous dataset of shape (rows.total), or (rows.total, columns) where columns > 1.
+  /// A contiguous dataset of shape (rows.total, columns), or (rows.total) where `columns` is one_dimensional.
   /// @param values  this rank's rows, row-major
   void write_rows(const std::string& name, const Rows& rows, int columns, std::span<const double> values);
   void write_rows(const std::string& name, const Rows& rows, int columns, std::span<const int> values);

@@ -7,18 +7,19 @@
 
 namespace cablenet::output {
 
-Index::Index(std::filesystem::path directory, Origin origin, std::int64_t nodes, std::int64_t elements)
-    : directory_(std::move(directory)), origin_(std::move(origin)), nodes_(nodes), elements_(elements) {}
+Index::Index(std::filesystem::path directory, Origin origin, const Counts& counts)
+    : directory_(std::move(directory)), origin_(std::move(origin)), counts_(counts) {}
 
 void Index::add_frame(double time) {
-  const std::string file = segment_name(static_cast<int>(ends_.size()));
-  steps_ += xdmf_step(time, nodes_, elements_, file + ":" + frame_name(frames_));
+  const std::string group = segment_name(static_cast<int>(ends_.size())) + ":" + frame_name(frames_);
+  cable_steps_ += xdmf_cables(time, counts_.nodes, counts_.elements, group);
+  if (counts_.bodies > 0) body_steps_ += xdmf_bodies(time, counts_.bodies, group);
   ++frames_;
 }
 
 void Index::close_segment() {
   ends_.push_back(frames_);
-  // In this order every frame that the .xmf lists is in result.h5 too, whenever the run is killed.
+  // In this order every frame that an .xmf lists is in result.h5 too, whenever the run is killed.
   write_result();
   write_xdmf();
 }
@@ -41,7 +42,8 @@ void Index::write_result() const {
 
 void Index::write_xdmf() const {
   // A mesh without cells is nothing that ParaView could show.
-  if (elements_ > 0) replace_text(directory_ / "cables.xmf", xdmf_head, steps_, xdmf_tail);
+  if (counts_.elements > 0) replace_text(directory_ / "cables.xmf", xdmf_head("cables"), cable_steps_, xdmf_tail);
+  if (counts_.bodies > 0) replace_text(directory_ / "bodies.xmf", xdmf_head("bodies"), body_steps_, xdmf_tail);
 }
 
 }   // namespace cablenet::output

@@ -6,17 +6,24 @@
 
 #include "layout.hpp"
 
-/// What a user opens: cables.xmf for ParaView and result.h5 for everyone else, over the closed segments.
+/// What a user opens: cables.xmf and bodies.xmf for ParaView and result.h5 for everyone else, over the closed segments.
 namespace cablenet::output {
+
+/// How many there are in the whole run.
+struct Counts {
+  std::int64_t nodes;
+  std::int64_t elements;
+  std::int64_t bodies;
+};
 
 /// Kept by rank 0 alone; nothing here is collective.
 class Index {
 public:
-  Index(std::filesystem::path directory, Origin origin, std::int64_t nodes, std::int64_t elements);
+  Index(std::filesystem::path directory, Origin origin, const Counts& counts);
 
   /// The next frame of the open segment.  @param time [s]
   void add_frame(double time);
-  /// The open segment has its final name: both files list its frames from now on.
+  /// The open segment has its final name: the files list its frames from now on.
   /// @throws OutputError
   void close_segment();
 
@@ -26,11 +33,11 @@ private:
 
   std::filesystem::path directory_;
   Origin origin_;
-  std::int64_t nodes_;
-  std::int64_t elements_;
+  Counts counts_;
   std::int64_t frames_ = 0;
   std::vector<std::int64_t> ends_;   ///< of every closed segment: the number of its last frame plus one
-  std::string steps_;                ///< the .xmf text of every frame: to make it anew each time would cost more
+  /// The .xmf texts of every frame: to make them anew each time would cost more.
+  std::string cable_steps_, body_steps_;
 };
 
 }   // namespace cablenet::output

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -28,6 +29,11 @@ int rank_in(MPI_Comm communicator) {
   int rank = 0;
   MPI_Comm_rank(communicator, &rank);
   return rank;
+}
+
+Rows rows_on_rank_0(std::size_t count, int rank) {
+  const auto rows = static_cast<std::int64_t>(count);
+  return rank == 0 ? Rows{rows, 0, rows} : Rows{rows, rows, 0};
 }
 
 /// Collective: does `work` on every rank; what it threw on the lowest failing rank is thrown on every rank.
@@ -61,10 +67,12 @@ struct Series::Impl {
         options(given),
         nodes{mesh.nodes, mesh.first_node, mesh.local_nodes},
         elements{mesh.elements, mesh.first_element, static_cast<std::int64_t>(mesh.lines.size())},
-        index(directory, origin(), mesh.nodes, mesh.elements) {}
+        bodies(rows_on_rank_0(mesh.body_names.size(), rank)),
+        index(directory, origin(), {mesh.nodes, mesh.elements, bodies.total}) {}
 
   Origin origin() const { return {options.version, options.scene_hash}; }
   void write_mesh(const Mesh& mesh);
+  void write_body_mesh(Hdf5File& out, const Mesh& mesh);
   void open_segment();
   void write_fields(const Frame& frame);
   bool segment_is_due();
@@ -76,6 +84,7 @@ struct Series::Impl {
   Options options;
   Rows nodes;
   Rows elements;
+  Rows bodies;
   Index index;   ///< used on rank 0 alone
 
   std::optional<Hdf5File> file;   ///< the open segment
@@ -88,25 +97,37 @@ struct Series::Impl {
   double index_seconds = 0;   ///< that the index took when it was last written
 };
 
+// One step at a time, lest a rank that failed leave the others waiting in the next.
 void Series::Impl::write_mesh(const Mesh& mesh) {
   const fs::path part = directory / "mesh.h5.part";
-  const auto names = static_cast<std::int64_t>(mesh.cable_names.size());
-  const Rows name_rows{names, rank == 0 ? 0 : names, rank == 0 ? names : 0};
+  const Rows names = rows_on_rank_0(mesh.cable_names.size(), rank);
   const std::span<const int> lines(mesh.lines.empty() ? nullptr : mesh.lines.front().data(), 2 * mesh.lines.size());
   std::optional<Hdf5File> out;
-  // One step at a time, lest a rank that failed leave the others waiting in the next.
   const auto step = [this](const auto& work) { agree(communicator, work); };
   step([&] { out.emplace(communicator, part); });
   step([&] { stamp(*out, origin()); });
   step([&] { out->create_group("/mesh"); });
   step([&] { out->write_rows("/mesh/lines", elements, 2, lines); });
-  step([&] { out->write_rows("/mesh/cable_id", elements, 1, mesh.cable_id); });
-  step([&] { out->write_rows("/mesh/rank", elements, 1, mesh.rank); });
-  step([&] { out->write_strings("/mesh/cable_names", name_rows, mesh.cable_names); });
+  step([&] { out->write_rows("/mesh/cable_id", elements, one_dimensional, mesh.cable_id); });
+  step([&] { out->write_rows("/mesh/rank", elements, one_dimensional, mesh.rank); });
+  step([&] { out->write_strings("/mesh/cable_names", names, mesh.cable_names); });
+  if (bodies.total > 0) write_body_mesh(*out, mesh);
   step([&] { out->close(); });
   step([&] {
     if (rank == 0) publish(part, directory / "mesh.h5");
   });
+}
+
+void Series::Impl::write_body_mesh(Hdf5File& out, const Mesh& mesh) {
+  std::vector<int> vertices(static_cast<std::size_t>(bodies.local));
+  std::iota(vertices.begin(), vertices.end(), 0);
+  const auto step = [this](const auto& work) { agree(communicator, work); };
+  step([&] { out.write_strings("/mesh/body_names", bodies, mesh.body_names); });
+  step([&] { out.write_rows("/mesh/body_vertices", bodies, 1, vertices); });
+  step([&] { out.write_rows("/mesh/body_box", bodies, 3, mesh.body_box); });
+  step([&] { out.set_attribute("/mesh/body_box", "units", "m"); });
+  step([&] { out.write_rows("/mesh/body_box_attitude", bodies, 4, mesh.body_box_attitude); });
+  step([&] { out.set_attribute("/mesh/body_box_attitude", "units", "1"); });
 }
 
 void Series::Impl::open_segment() {
@@ -129,9 +150,14 @@ void Series::Impl::write_fields(const Frame& frame) {
   file->set_attribute(group, "step", frame.step);
   field("points", nodes, 3, frame.points, "m");
   field("velocity", nodes, 3, frame.velocity, "m/s");
-  field("tension_node", nodes, 1, frame.tension_node, "N");
-  field("tension", elements, 1, frame.tension, "N");
-  field("strain", elements, 1, frame.strain, "1");
+  field("tension_node", nodes, one_dimensional, frame.tension_node, "N");
+  field("tension", elements, one_dimensional, frame.tension, "N");
+  field("strain", elements, one_dimensional, frame.strain, "1");
+  if (bodies.total == 0) return;
+  field("body_position", bodies, 3, frame.body_position, "m");
+  field("body_velocity", bodies, 3, frame.body_velocity, "m/s");
+  field("body_quaternion", bodies, 4, frame.body_quaternion, "1");
+  field("body_angular_velocity", bodies, 3, frame.body_angular_velocity, "rad/s");
 }
 
 /// Rank 0 decides for all, whose clocks differ.

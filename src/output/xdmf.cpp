@@ -19,34 +19,69 @@ std::string attribute(std::string_view name, std::string_view kind, std::string_
                      name, kind, center, item);
 }
 
+std::string step_head(std::string_view name, double time) {
+  return fmt::format(R"( <Grid Name="{}" GridType="Uniform"><Time Value="{:.17g}"/>)"
+                     "\n",
+                     name, time);
+}
+
+// The mesh is named again in each step: Xdmf3 aborts ParaView on references.
+std::string topology(std::string_view type, int nodes_each, const std::string& cells, const std::string& address) {
+  return fmt::format(R"(  <Topology TopologyType="{}" NodesPerElement="{}" NumberOfElements="{}">{}</Topology>)"
+                     "\n",
+                     type, nodes_each, cells, data_item(integer, fmt::format("{} {}", cells, nodes_each), address));
+}
+
+std::string geometry(const std::string& nodes, const std::string& address) {
+  return fmt::format(R"(  <Geometry GeometryType="XYZ">{}</Geometry>)"
+                     "\n",
+                     data_item(real, nodes + " 3", address));
+}
+
 }   // namespace
 
-const std::string_view xdmf_head =
-    R"(<?xml version="1.0" ?><!DOCTYPE Xdmf SYSTEM "Xdmf.dtd" []>
-<Xdmf Version="3.0"><Domain><Grid Name="cables" GridType="Collection" CollectionType="Temporal">
-)";
+std::string xdmf_head(std::string_view name) {
+  return fmt::format(R"(<?xml version="1.0" ?><!DOCTYPE Xdmf SYSTEM "Xdmf.dtd" []>
+<Xdmf Version="3.0"><Domain><Grid Name="{}" GridType="Collection" CollectionType="Temporal">
+)",
+                     name);
+}
+
 const std::string_view xdmf_tail = "</Grid></Domain></Xdmf>\n";
 
-std::string xdmf_step(double time, std::int64_t nodes, std::int64_t elements, std::string_view group) {
+std::string xdmf_cables(double time, std::int64_t nodes, std::int64_t elements, std::string_view group) {
   const auto n = fmt::to_string(nodes);
   const auto m = fmt::to_string(elements);
   const auto in_frame = [&](const char* name) { return fmt::format("{}/{}", group, name); };
-  std::string text = fmt::format(R"( <Grid Name="cables" GridType="Uniform"><Time Value="{:.17g}"/>)"
-                                 "\n",
-                                 time);
-  // The mesh is named again in each step: Xdmf3 aborts ParaView on references.
-  text += fmt::format(R"(  <Topology TopologyType="Polyline" NodesPerElement="2" NumberOfElements="{}">{}</Topology>)"
-                      "\n",
-                      m, data_item(integer, m + " 2", "mesh.h5:/mesh/lines"));
-  text += fmt::format(R"(  <Geometry GeometryType="XYZ">{}</Geometry>)"
-                      "\n",
-                      data_item(real, n + " 3", in_frame("points")));
+  std::string text = step_head("cables", time);
+  text += topology("Polyline", 2, m, "mesh.h5:/mesh/lines");
+  text += geometry(n, in_frame("points"));
   text += attribute("velocity", "Vector", "Node", data_item(real, n + " 3", in_frame("velocity")));
   text += attribute("tension_node", "Scalar", "Node", data_item(real, n, in_frame("tension_node")));
   text += attribute("tension", "Scalar", "Cell", data_item(real, m, in_frame("tension")));
   text += attribute("strain", "Scalar", "Cell", data_item(real, m, in_frame("strain")));
   text += attribute("cable_id", "Scalar", "Cell", data_item(integer, m, "mesh.h5:/mesh/cable_id"));
   text += attribute("rank", "Scalar", "Cell", data_item(integer, m, "mesh.h5:/mesh/rank"));
+  return text + " </Grid>\n";
+}
+
+std::string xdmf_bodies(double time, std::int64_t bodies, std::string_view group) {
+  const auto b = fmt::to_string(bodies);
+  const auto in_frame = [&](const char* name) { return fmt::format("{}/body_{}", group, name); };
+  const std::string vertices = "mesh.h5:/mesh/body_vertices";
+  std::string text = step_head("bodies", time);
+  text += topology("Polyvertex", 1, b, vertices);
+  text += geometry(b, in_frame("position"));
+  const auto at_nodes = [&](const char* name, const char* kind, const std::string& item) {
+    text += attribute(name, kind, "Node", item);
+  };
+  at_nodes("velocity", "Vector", data_item(real, b + " 3", in_frame("velocity")));
+  at_nodes("angular_velocity", "Vector", data_item(real, b + " 3", in_frame("angular_velocity")));
+  // Of a "Vector" the readers keep three components.
+  at_nodes("quaternion", "Matrix", data_item(real, b + " 4", in_frame("quaternion")));
+  at_nodes("body_id", "Scalar", data_item(integer, b + " 1", vertices));
+  at_nodes("box", "Vector", data_item(real, b + " 3", "mesh.h5:/mesh/body_box"));
+  at_nodes("box_attitude", "Matrix", data_item(real, b + " 4", "mesh.h5:/mesh/body_box_attitude"));
   return text + " </Grid>\n";
 }
 

@@ -1,55 +1,19 @@
 #include "cablenet/output/series.hpp"
 
-#include <gtest/gtest.h>
-#include <hdf5.h>
-#include <unistd.h>
-
 #include <cmath>
-#include <fstream>
-#include <iterator>
-#include <limits>
 #include <regex>
-#include <set>
 
+#include "../support/series_files.hpp"
 #include "cablenet/base/errors.hpp"
 
 namespace fs = std::filesystem;
 using namespace cablenet::output;
+using namespace cablenet::test;
 
 namespace {
 
 constexpr int total_nodes = 17;
 constexpr int total_elements = 16;
-
-int rank_of_world() {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return rank;
-}
-
-int size_of_world() {
-  int size = 0;
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
-  return size;
-}
-
-/// A folder of its own for the test, the same on every rank; gone at the end.
-class SeriesTest : public testing::Test {
-protected:
-  void SetUp() override {
-    auto pid = static_cast<std::int64_t>(getpid());
-    MPI_Bcast(&pid, 1, MPI_INT64_T, 0, MPI_COMM_WORLD);
-    const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
-    folder_ = fs::temp_directory_path() / ("cablenet_series_" + std::to_string(pid) + "_" + name);
-    if (rank_of_world() == 0) fs::create_directories(folder_);
-    MPI_Barrier(MPI_COMM_WORLD);
-  }
-  void TearDown() override {
-    MPI_Barrier(MPI_COMM_WORLD);
-    if (rank_of_world() == 0) fs::remove_all(folder_);
-  }
-  fs::path folder_;
-};
 
 /// Rows of `total` on this rank: none on `empty`, the others' shares as 3 : 1.
 std::pair<int, int> share(int total, int empty) {
@@ -111,37 +75,6 @@ void write_frame(Series& series, const Mesh& mesh, int frame) {
 
 Series::Options frames_alone(int frames_per_segment) { return {frames_per_segment, 1e9, "hash", "1.2.3"}; }
 
-template <class T>
-std::vector<T> read(hid_t file, const std::string& name, hid_t type) {
-  const hid_t dataset = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
-  if (dataset < 0) return {};
-  const hid_t space = H5Dget_space(dataset);
-  std::vector<T> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
-  EXPECT_GE(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0) << name;
-  H5Sclose(space);
-  H5Dclose(dataset);
-  return values;
-}
-
-template <class T>
-T read_attribute(hid_t file, const std::string& object, const char* name, hid_t type) {
-  T value{};
-  const hid_t attribute = H5Aopen_by_name(file, object.c_str(), name, H5P_DEFAULT, H5P_DEFAULT);
-  EXPECT_GE(H5Aread(attribute, type, &value), 0) << object << " " << name;
-  H5Aclose(attribute);
-  return value;
-}
-
-std::string read_text(hid_t file, const std::string& object, const char* name) {
-  const hid_t attribute = H5Aopen_by_name(file, object.c_str(), name, H5P_DEFAULT, H5P_DEFAULT);
-  const hid_t type = H5Aget_type(attribute);
-  std::string text(H5Tget_size(type), '?');
-  EXPECT_GE(H5Aread(attribute, type, text.data()), 0) << object << " " << name;
-  H5Tclose(type);
-  H5Aclose(attribute);
-  return text;
-}
-
 void expect_mesh(hid_t file) {
   const auto lines = read<int>(file, "/mesh/lines", H5T_NATIVE_INT);
   const auto cable_id = read<int>(file, "/mesh/cable_id", H5T_NATIVE_INT);
@@ -176,11 +109,6 @@ void expect_frame(hid_t file, int frame) {
   }
 }
 
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// The FILE:GROUP of every step's points, in order.
 std::vector<std::string> listed_frames(const fs::path& folder) {
   const std::string text = text_of(folder / "cables.xmf");
@@ -189,12 +117,6 @@ std::vector<std::string> listed_frames(const fs::path& folder) {
   for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match)
     found.push_back((*match)[1]);
   return found;
-}
-
-std::set<std::string> files_in(const fs::path& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename());
-  return names;
 }
 
 }   // namespace
@@ -250,8 +172,9 @@ TEST_F(SeriesTest, ASegmentClosesWhenItIsOld) {
 
 TEST_F(SeriesTest, AnEarlierRunIsRemovedAndNothingElse) {
   if (rank_of_world() == 0)
-    for (const char* name : {"frames_0007.h5", "frames_12345.h5.part", "cables.xmf", "cables.xmf.tmp", "result.h5",
-                             "result.h5.tmp", "mesh.h5", "frames_best.h5", "frames_0007.h5.png", "history.csv"})
+    for (const char* name :
+         {"frames_0007.h5", "frames_12345.h5.part", "cables.xmf", "cables.xmf.tmp", "bodies.xmf", "bodies.xmf.tmp",
+          "result.h5", "result.h5.tmp", "mesh.h5", "frames_best.h5", "frames_0007.h5.png", "history.csv"})
       std::ofstream(folder_ / name) << "old";
   MPI_Barrier(MPI_COMM_WORLD);
   const Series series(MPI_COMM_WORLD, folder_, make_mesh(0), frames_alone(3));

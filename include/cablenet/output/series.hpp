@@ -9,8 +9,9 @@
 #include <string>
 #include <vector>
 
-/// Frames of a run as crash-safe HDF5 segments that ParaView opens through cables.xmf.
-/// Files: mesh.h5, frames_NNNN.h5, result.h5 (links), cables.xmf.  Tests: tests/parallel/series_test.cpp
+/// Frames of a run as crash-safe HDF5 segments that ParaView opens through cables.xmf and bodies.xmf.
+/// Files: mesh.h5, frames_NNNN.h5, result.h5 (links), and each .xmf where it has something to show.
+/// Tests: tests/parallel/series_test.cpp
 namespace cablenet::output {
 
 /// The static mesh: nodes and elements in the scene's order, each rank holding one contiguous block of both.
@@ -41,12 +42,12 @@ struct Frame {
   std::span<const double> strain;         ///< [1], per element of the block
   /// On rank 0, row-major: of the centres of gravity (bodies, 3) [m] and [m/s]; unit quaternions w x y z, body axes to
   /// world (bodies, 4); in body axes (bodies, 3) [rad/s].
-  std::span<const double> body_position, body_velocity, body_quaternion, body_angular_velocity;
+  std::span<const double> body_position = {}, body_velocity = {}, body_quaternion = {}, body_angular_velocity = {};
 };
 
 /// Writes frames.  Every member function is collective over the communicator; the destructor is not, and loses the open
 /// segment.  A run that is killed loses the open segment and nothing else: only closed ones have their final name and
-/// are listed in cables.xmf and result.h5, which are rewritten each time.  A segment is closed
+/// are listed in result.h5 and the .xmf, which are rewritten each time.  A segment is closed
 /// - at `frames_per_segment` frames, or at a tenth of those closed before where that is more: so all the rewriting of
 ///   a long run costs as much as some ten times its last one;
 /// - where the next frame would come after `seconds_per_segment`, or after 50 times what the last rewriting took where
