@@ -1,4 +1,5 @@
-"""Draws the cables of a run, coloured by tension or strain.  To be run by pvbatch, under jobs/with_xvfb.sh."""
+"""Draws the cables of a run, coloured by tension or strain, and its bodies as boxes.
+To be run by pvbatch, under jobs/with_xvfb.sh."""
 import argparse
 import pathlib
 import sys
@@ -6,12 +7,19 @@ import sys
 import numpy
 from paraview import servermanager
 from paraview import simple as pv
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
 UNITS = {"tension": "N", "strain": "1"}
 AXES = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 FLAT = 0.05        # a structure thinner than this part of its second extent counts as planar
 MARGIN = 1.12
+BODY_COLOUR = (0.91, 0.55, 0.26)       # none of viridis
+BODY_EDGE_COLOUR = (0.25, 0.13, 0.05)
+SEEN = 0.015       # the longest edge of the largest body is at least this part of the picture's height
+CORNERS = numpy.array([(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
+FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))     # outward normals
 
 
 def parse():
@@ -21,11 +29,13 @@ def parse():
     parser.add_argument("--time", default="last", help="seconds, or last (default)")
     parser.add_argument("--times", help="several times, drawn over each other: 0,0.5,last")
     parser.add_argument("--view", default="auto",
-                        help="look along x, y, z, or along a vector x,y,z; default: across the plane the cables span, "
-                             "obliquely where they span a volume")
+                        help="look along x, y, z, or along a vector x,y,z; default: across the plane that cables and "
+                             "bodies span, obliquely where they span a volume")
     parser.add_argument("--colour", choices=UNITS, default="tension")
     parser.add_argument("--range", help="of the colours: low,high; default: all that occurs in the run")
     parser.add_argument("--width", type=float, default=4, help="of the cables in pixels")
+    parser.add_argument("--bodies", type=float, metavar="SCALE",
+                        help="enlarges the bodies; default: true size, or what it takes to see the largest")
     parser.add_argument("--size", default="1600x900")
     return parser.parse_args()
 
@@ -34,15 +44,68 @@ def nearest(steps, text):
     return steps[-1] if text == "last" else min(steps, key=lambda step: abs(step - float(text)))
 
 
+def frozen(data):
+    """A source that gives these data at any time."""
+    source = pv.TrivialProducer()
+    source.GetClientSideObject().SetOutput(data)
+    source.UpdatePipeline()
+    return source
+
+
 def surface_at(reader, time):
     """The cables at one time as a source of their own, and their nodes as an array."""
     surface = pv.ExtractSurface(Input=reader)
     surface.UpdatePipeline(time)
     data = servermanager.Fetch(surface)
-    frozen = pv.TrivialProducer()
-    frozen.GetClientSideObject().SetOutput(data)
-    frozen.UpdatePipeline()
-    return frozen, vtk_to_numpy(data.GetPoints().GetData()).astype(float)
+    return frozen(data), vtk_to_numpy(data.GetPoints().GetData()).astype(float)
+
+
+def product(left, right):
+    """Of quaternions w x y z, row by row."""
+    w, x = left[:, :1], left[:, 1:]
+    v, y = right[:, :1], right[:, 1:]
+    return numpy.hstack([w * v - numpy.sum(x * y, axis=1, keepdims=True), w * y + v * x + numpy.cross(x, y)])
+
+
+def turned(quaternion, vectors):
+    """(bodies, 8, 3): each body's vectors from its own axes to the world's."""
+    w, x = quaternion[:, None, :1], quaternion[:, None, 1:]
+    return vectors + 2 * numpy.cross(x, numpy.cross(x, vectors) + w * vectors)
+
+
+class Bodies:
+    """The boxes at one time."""
+    def __init__(self, reader, time):
+        reader.UpdatePipeline(time)
+        data = servermanager.Fetch(reader)
+        fields = {name: vtk_to_numpy(data.GetPointData().GetArray(name)).astype(float)
+                  for name in ("quaternion", "box", "box_attitude")}
+        self.centres = vtk_to_numpy(data.GetPoints().GetData()).astype(float)
+        self.edges = fields["box"]
+        attitude = product(fields["quaternion"], fields["box_attitude"])
+        self.from_centres = turned(attitude, CORNERS * self.edges[:, None, :])
+
+    def corners(self, scale):
+        return (self.centres[:, None, :] + scale * self.from_centres).reshape(-1, 3)
+
+    def surface(self, scale):
+        """A source of its own."""
+        faces = numpy.array(FACES)[None] + 8 * numpy.arange(len(self.centres))[:, None, None]
+        cells = numpy.insert(faces.reshape(-1, 4), 0, 4, axis=1).ravel()
+        points, polygons, boxes = vtkPoints(), vtkCellArray(), vtkPolyData()
+        points.SetData(numpy_to_vtk(self.corners(scale), deep=True))
+        polygons.ImportLegacyFormat(numpy_to_vtkIdTypeArray(cells, deep=True))
+        boxes.SetPoints(points)
+        boxes.SetPolys(polygons)
+        return frozen(boxes)
+
+
+def body_scale(bodies, wish, height):
+    """How much larger than true the bodies are drawn, in a picture of a true height [m]."""
+    if wish:
+        return wish
+    longest = max((instant.edges.max() for instant in bodies), default=0)
+    return max(1.0, SEEN * height / longest) if longest > 0 else 1.0
 
 
 def colour_range(reader, steps, field):
@@ -140,6 +203,15 @@ def draw(view, source, radius, table, field, colours):
     table.RescaleTransferFunction(*colours)                  # showing a part rescales to that part
 
 
+def draw_bodies(view, source):
+    shown = pv.Show(source, view)
+    shown.Representation = "Surface With Edges"
+    shown.AmbientColor = shown.DiffuseColor = list(BODY_COLOUR)
+    shown.EdgeColor, shown.LineWidth = list(BODY_EDGE_COLOUR), 2
+    shown.Interpolation, shown.Ambient = "Flat", 0.3
+    shown.Specular = 0
+
+
 def write_times(view, times):
     text = "t = " + ", ".join(f"{time:.4g}" for time in times) + " s"
     label = pv.Show(pv.Text(Text=text), view)
@@ -147,31 +219,54 @@ def write_times(view, times):
     label.WindowLocation = "Upper Left Corner"
 
 
-def main():
-    options = parse()
-    index = options.run / "cables.xmf"
-    if not index.is_file():
-        sys.exit(f"picture.py: {index} is not there: is {options.run} the folder of a finished run?")
-    size = tuple(int(part) for part in options.size.split("x"))
-    reader = pv.XDMFReader(FileNames=[str(index.resolve())])
-    steps = list(reader.TimestepValues) or [0.0]
-    times = [nearest(steps, text) for text in (options.times or options.time).split(",")]
+def open_index(path):
+    return pv.XDMFReader(FileNames=[str(path.resolve())]) if path.is_file() else None
 
-    colours = colour_range(reader, steps, options.colour)
+
+def fit(view, surfaces, bodies, options, size):
+    """Aims at cables and bodies; the size of a pixel in metres, and how much the bodies are enlarged."""
+    def seen(scale):
+        return numpy.vstack([nodes for _, nodes in surfaces] + [instant.corners(scale) for instant in bodies])
+    look = look_direction(seen(1.0), options.view)
+    scale = body_scale(bodies, options.bodies, size[1] * aim(view, seen(1.0), look, size))
+    return aim(view, seen(scale), look, size), scale
+
+
+def draw_cables(view, reader, surfaces, pixel, options):
+    colours = colour_range(reader, list(reader.TimestepValues) or [0.0], options.colour)
     if options.range:
         colours = tuple(float(part) for part in options.range.split(","))
-    surfaces = [surface_at(reader, time) for time in times]
-    points = numpy.vstack([nodes for _, nodes in surfaces])
-    view = new_view(size)
-    pixel = aim(view, points, look_direction(points, options.view), size)
     table = colour_table(view, options.colour, colours)
     for source, _ in surfaces:
         draw(view, source, 0.5 * options.width * pixel, table, options.colour, colours)
+    return (f"{len(surfaces[0][1])} nodes, "
+            f"{options.colour} {colours[0]:.4g} .. {colours[1]:.4g} {UNITS[options.colour]}")
+
+
+def main():
+    options = parse()
+    cables, boxes = (open_index(options.run / name) for name in ("cables.xmf", "bodies.xmf"))
+    if not (cables or boxes):
+        sys.exit(f"picture.py: {options.run / 'cables.xmf'} is not there: "
+                 f"is {options.run} the folder of a finished run?")
+    size = tuple(int(part) for part in options.size.split("x"))
+    steps = list((cables or boxes).TimestepValues) or [0.0]
+    times = [nearest(steps, text) for text in (options.times or options.time).split(",")]
+    surfaces = [surface_at(cables, time) for time in times] if cables else []
+    bodies = [Bodies(boxes, time) for time in times] if boxes else []
+
+    view = new_view(size)
+    pixel, scale = fit(view, surfaces, bodies, options, size)
+    drawn = [draw_cables(view, cables, surfaces, pixel, options)] if cables else []
+    for instant in bodies:
+        draw_bodies(view, instant.surface(scale))
+    if boxes:
+        count = len(bodies[0].centres)
+        drawn.append(f"{count} {'body' if count == 1 else 'bodies'} at {scale:.3g} times true size")
     write_times(view, times)
     options.picture.parent.mkdir(parents=True, exist_ok=True)
     pv.SaveScreenshot(str(options.picture), view, ImageResolution=list(size))
-    print(f"{options.picture}: {len(points) // len(times)} nodes, "
-          f"{options.colour} {colours[0]:.4g} .. {colours[1]:.4g} {UNITS[options.colour]}")
+    print(f"{options.picture}: {', '.join(drawn)}")
 
 
 main()
