@@ -1,4 +1,5 @@
-"""What ParaView reads from cables.xmf, against what h5py reads from result.h5: bit for bit, in both its XDMF readers.
+"""What ParaView reads from cables.xmf, and from bodies.xmf where a run has bodies, against what h5py reads from
+result.h5: bit for bit, in both its XDMF readers.
 
 paraview_read.py RUN                           checks a run
 paraview_read.py --program P --scratch DIR     makes one first
@@ -11,9 +12,16 @@ import sys
 
 import numpy
 
-NODE_FIELDS = ("velocity", "tension_node")
-CELL_FIELDS = ("tension", "strain")
-MESH_FIELDS = ("cable_id", "rank")
+# Of each index, by ParaView's names: the datasets of a frame and those of the mesh.
+INDICES = {
+    "cables.xmf": ({"points": "points", "velocity": "velocity", "tension_node": "tension_node", "tension": "tension",
+                    "strain": "strain"},
+                   {"cells": "lines", "cable_id": "cable_id", "rank": "rank"}),
+    "bodies.xmf": ({"points": "body_position", "velocity": "body_velocity", "quaternion": "body_quaternion",
+                    "angular_velocity": "body_angular_velocity"},
+                   {"cells": "body_vertices", "body_id": "body_vertices", "box": "body_box",
+                    "box_attitude": "body_box_attitude"}),
+}
 READERS = {"XDMFReader": "FileNames", "Xdmf3ReaderS": "FileName"}
 WITH_XVFB = pathlib.Path(__file__).resolve().parents[2] / "jobs" / "with_xvfb.sh"
 SCENE = """
@@ -41,29 +49,39 @@ def make_run(program, scratch, ranks):
     return scratch / "run"
 
 
-def dump(run, target):
-    """The run by h5py as one .npz: ParaView's process has an HDF5 library of its own."""
+def dump(run, index, target):
+    """What an index should show by h5py as one .npz: ParaView's process has an HDF5 library of its own."""
     import h5py
+    frame_fields, mesh_fields = INDICES[index]
     with h5py.File(run / "result.h5", "r") as result:
         frames = [result["frames"][name] for name in sorted(result["frames"])]
-        values = {name: result["mesh"][name][()] for name in ("lines", *MESH_FIELDS)}
+        values = {name: result["mesh"][dataset][()] for name, dataset in mesh_fields.items()}
         values["times"] = numpy.array([frame.attrs["time"] for frame in frames])
-        for name in ("points", *NODE_FIELDS, *CELL_FIELDS):
-            values[name] = numpy.stack([frame[name][()] for frame in frames])
+        for name, dataset in frame_fields.items():
+            values[name] = numpy.stack([frame[dataset][()] for frame in frames])
+    if "body_id" in values:
+        values["body_id"] = values["body_id"].ravel()        # the cells' column, read as a scalar
     numpy.savez(target, **values)
 
 
-def check(run):
+def check_index(run, index):
     values = run / "paraview_read.npz"
-    dump(run, values)
+    dump(run, index, values)
     try:
-        done = subprocess.run([WITH_XVFB, "pvbatch", __file__, "--compare", values, run], stdout=subprocess.PIPE,
-                              text=True, check=False)
+        done = subprocess.run([WITH_XVFB, "pvbatch", __file__, "--compare", values, "--index", index, run],
+                              stdout=subprocess.PIPE, text=True, check=False)
     finally:
         values.unlink()
     print(done.stdout, end="")
     # ParaView can crash after the script's end, or end well without having run it.
-    return 0 if done.returncode == 0 and "no difference" in done.stdout else 1
+    return done.returncode == 0 and "no difference" in done.stdout
+
+
+def check(run):
+    written = [index for index in INDICES if (run / index).exists()]
+    if not written:
+        print(f"{run}: neither {' nor '.join(INDICES)}")
+    return 0 if written and all([check_index(run, index) for index in written]) else 1
 
 
 def same(given, expected):
@@ -80,12 +98,14 @@ def fields_of(grid):
             fields[data.GetArrayName(index)] = vtk_to_numpy(data.GetArray(index))
     cells = grid.GetCells()
     ends = vtk_to_numpy(cells.GetOffsetsArray())
-    if numpy.array_equal(ends, 2 * numpy.arange(len(ends))):
-        fields["lines"] = vtk_to_numpy(cells.GetConnectivityArray()).astype(numpy.int32).reshape(-1, 2)
+    nodes_each = int(ends[1]) if len(ends) > 1 else 1
+    if numpy.array_equal(ends, nodes_each * numpy.arange(len(ends))):
+        connectivity = vtk_to_numpy(cells.GetConnectivityArray()).astype(numpy.int32)
+        fields["cells"] = connectivity.reshape(-1, nodes_each)
     return fields
 
 
-def differences(reader, expected):
+def differences(reader, expected, constant):
     from paraview import servermanager
     times = numpy.atleast_1d(numpy.array(reader.TimestepValues, dtype=float))
     if not same(times, expected["times"]):
@@ -97,26 +117,26 @@ def differences(reader, expected):
         for name in expected:
             if name == "times":
                 continue
-            wanted = expected[name] if name in ("lines", *MESH_FIELDS) else expected[name][step]
+            wanted = expected[name] if name in constant else expected[name][step]
             if name not in fields:
                 yield f"step {step}: no {name}"
             elif not same(fields[name], wanted):
                 yield f"step {step}: {name} differs"
 
 
-def compare(run, values):
+def compare(run, index, values):
     """Inside pvbatch."""
     from paraview import simple
     expected = dict(numpy.load(values))
     count = 0
     for name, file_property in READERS.items():
-        reader = getattr(simple, name)(**{file_property: [str(run / "cables.xmf")] if name == "XDMFReader"
-                                          else str(run / "cables.xmf")})
-        found = list(differences(reader, expected))
+        path = str(run / index)
+        reader = getattr(simple, name)(**{file_property: [path] if name == "XDMFReader" else path})
+        found = list(differences(reader, expected, INDICES[index][1]))
         print("\n".join(f"{name}: {text}" for text in found[:20]), end="\n" if found else "")
         count += len(found)
-        print(f"{name}: {len(expected['times'])} steps, {expected['points'].shape[1]} nodes, "
-              f"{len(expected['lines'])} cells; compared {', '.join(sorted(expected))}")
+        print(f"{index} by {name}: {len(expected['times'])} steps, {expected['points'].shape[1]} nodes, "
+              f"{len(expected['cells'])} cells; compared {', '.join(sorted(expected))}")
         simple.Delete(reader)
     print(f"{count} differences" if count else "no difference")
     return 1 if count else 0
@@ -129,9 +149,10 @@ def main():
     parser.add_argument("--scratch", type=pathlib.Path)
     parser.add_argument("--ranks", type=int, default=1, help="of the run it makes")
     parser.add_argument("--compare", type=pathlib.Path, help="for the script itself, inside pvbatch")
+    parser.add_argument("--index", choices=INDICES, help="likewise")
     given = parser.parse_args()
     if given.compare:
-        return compare(given.run, given.compare)
+        return compare(given.run, given.index, given.compare)
     if not given.run and not (given.program and given.scratch):
         parser.error("give a run, or --program and --scratch")
     return check(given.run or make_run(given.program, given.scratch, given.ranks))
