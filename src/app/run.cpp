@@ -64,7 +64,10 @@ scene::Scene load_scene(const std::string& path) {
   text.resize(static_cast<std::size_t>(found[1]));
   MPI_Bcast(text.data(), static_cast<int>(found[1]), MPI_CHAR, 0, PETSC_COMM_WORLD);
   if (found[0] == 0) throw InputError(text);
-  return scene::read_scene(text, path);
+  scene::Scene scene = scene::read_scene(text, path);
+  if (this_rank() == 0)
+    for (const std::string& note : scene.notes) fmt::print(stderr, "cablenet: note: {}\n", note);
+  return scene;
 }
 
 int check_scene(const CommandLine& line) {

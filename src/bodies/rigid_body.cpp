@@ -1,5 +1,6 @@
 #include "cablenet/bodies/rigid_body.hpp"
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <unsupported/Eigen/AutoDiff>
 
@@ -217,9 +218,10 @@ Stage evaluate(const Properties& body, const Start& start, const StepRule& rule,
   return result;
 }
 
-Vector3 conserving_end(const Start& start, double dt, const Vector4& y1) {
-  const Vector4 middle = 0.5 * (start.y + y1), rate = (1 / dt) * (y1 - start.y);
-  return 2 * mean_turn<double>(dt, middle, rate).W - start.w;
+Vector3 conserving_end(const Properties& body, const Start& start, double dt, const Vector4& y1,
+                       const Vector3& torque) {
+  const Vector3 momentum = start.R * (body.inertia * start.w) + dt * torque;
+  return body.inertia.llt().solve(QuaternionRotation::matrix<double>(y1).transpose() * momentum);
 }
 
 Vector3 torque_of(const Matrix3& lever, const Moments& moments) {

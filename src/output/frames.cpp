@@ -1,6 +1,11 @@
 #include "cablenet/output/frames.hpp"
 
 #include <algorithm>
+#include <array>
+#include <optional>
+#include <unordered_map>
+
+#include "cablenet/output/body_box.hpp"
 
 namespace cablenet::output {
 namespace {
@@ -8,6 +13,9 @@ namespace {
 using petsc::check;
 
 std::size_t at(std::int64_t index) { return static_cast<std::size_t>(index); }
+
+/// Position, velocity, quaternion, angular velocity.
+constexpr std::size_t values_per_body = 13;
 
 std::int64_t block_start(std::int64_t count, int rank, int ranks) { return count * rank / ranks; }
 
@@ -69,6 +77,41 @@ void Frames::fill_mesh(const network::Network& network, const partition::Partiti
     mesh_.rank.push_back(partition.element_owner[at(e)]);
   }
   for (const auto& cable : network.spans) mesh_.cable_names.push_back(cable.name);
+  fill_bodies(network);
+}
+
+void Frames::fill_bodies(const network::Network& network) {
+  for (const auto& body : network.bodies) mesh_.body_names.push_back(body.name);
+  bodies_.resize(values_per_body * network.bodies.size());
+  if (rank_ != 0) return;
+  std::unordered_map<int, double> mass;
+  for (const auto& load : network.loads) mass[load.node] = load.mass;
+  for (const auto& body : network.bodies) {
+    const bool turns = body.properties.rotation != bodies::Rotation::none;
+    const auto inertia = turns ? std::optional(body.properties.inertia) : std::nullopt;
+    const auto [edges, q] = body_box(mass.at(body.node), inertia);
+    mesh_.body_box.insert(mesh_.body_box.end(), edges.begin(), edges.end());
+    mesh_.body_box_attitude.insert(mesh_.body_box_attitude.end(), {q.w(), q.x(), q.y(), q.z()});
+  }
+}
+
+/// The few values of a body are summed from the rank that has it.
+void Frames::collect_bodies(const system::LocalState& state) {
+  const partition::LocalNetwork& here = assembler_.network();
+  const std::size_t bodies = mesh_.body_names.size();
+  std::fill(bodies_.begin(), bodies_.end(), 0.0);
+  for (std::size_t b = 0; b < at(here.own_bodies); ++b) {
+    const std::size_t body = at(here.bodies[b].body);
+    const auto& [q, w] = state.bodies[b];
+    const Vector3 x = system::LocalState::at(state.x, here.bodies[b].node);
+    const Vector3 v = system::LocalState::at(state.v, here.bodies[b].node);
+    std::copy(x.begin(), x.end(), bodies_.data() + 3 * body);
+    std::copy(v.begin(), v.end(), bodies_.data() + 3 * (bodies + body));
+    std::copy_n(std::array{q.w(), q.x(), q.y(), q.z()}.begin(), 4, bodies_.data() + 6 * bodies + 4 * body);
+    std::copy(w.begin(), w.end(), bodies_.data() + 10 * bodies + 3 * body);
+  }
+  MPI_Reduce(rank_ == 0 ? MPI_IN_PLACE : bodies_.data(), bodies_.data(), static_cast<int>(bodies_.size()), MPI_DOUBLE,
+             MPI_SUM, 0, assembler_.communicator());
 }
 
 void Frames::make_forests() {
@@ -118,7 +161,17 @@ Frame Frames::collect(const system::LocalState& state, long step) {
   send(all_nodes_, 1, node_tension_, block_node_tension_, MPI_SUM);
   for (std::size_t i = 0; i < block_node_tension_.size(); ++i)
     block_node_tension_[i] /= std::max(1.0, elements_at_node_[i]);
-  return {state.t, step, points_, velocity_, block_node_tension_, block_tension_, block_strain_, {}, {}, {}, {}};
+  Frame frame{state.t, step, points_, velocity_, block_node_tension_, block_tension_, block_strain_};
+  const std::size_t bodies = mesh_.body_names.size();
+  if (bodies == 0) return frame;
+  collect_bodies(state);
+  if (rank_ != 0) return frame;
+  const std::span<const double> values(bodies_);
+  frame.body_position = values.first(3 * bodies);
+  frame.body_velocity = values.subspan(3 * bodies, 3 * bodies);
+  frame.body_quaternion = values.subspan(6 * bodies, 4 * bodies);
+  frame.body_angular_velocity = values.last(3 * bodies);
+  return frame;
 }
 
 }   // namespace cablenet::output

@@ -146,7 +146,7 @@ void BodySet::write_tangent(const NodeData& data, TangentMatrix& matrix) {
   matrix.close();
 }
 
-double BodySet::end_step(const Stage& stage, bool conserving, double* x, double* v) const {
+double BodySet::end_step(const Stage& stage, bool conserving, const NodeData& data, double* x, double* v) const {
   double work = 0;
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const partition::LocalBody& body = network_.bodies[b];
@@ -156,7 +156,9 @@ double BodySet::end_step(const Stage& stage, bool conserving, double* x, double*
     std::copy_n(v + place, n, state.dy.data());
     Vector3 w = bodies::angular_velocity(body.properties.rotation, state);
     if (conserving && body.properties.rotation == bodies::Rotation::quaternion) {
-      w = bodies::conserving_end(starts_[b], stage.dt, state.y);
+      const bodies::StageMaps& maps = stages_[b].at;
+      const Vector3 torque = maps.place * body.properties.torque - bodies::torque_of(maps.lever, sums(b, data).moments);
+      w = bodies::conserving_end(body.properties, starts_[b], stage.dt, state.y, torque);
       const Quaternion attitude = bodies::attitude(body.properties, state.y);
       state = bodies::rotation_state(body.properties.rotation, attitude, w);
       std::copy_n(state.y.data(), n, x + place);

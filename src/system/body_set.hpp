@@ -45,9 +45,9 @@ public:
   /// Likewise the bodies' own blocks.
   void write_tangent(const NodeData& data, TangentMatrix& matrix);
 
-  /// Ends an accepted step: conserving steps set their own end velocities.
+  /// Ends the accepted step that was evaluated last: conserving ones set their own end velocities.
   /// @returns the work of the constant torques [J]
-  double end_step(const Stage& stage, bool conserving, double* x, double* v) const;
+  double end_step(const Stage& stage, bool conserving, const NodeData& data, double* x, double* v) const;
   bodies::RotationState rotation(std::size_t body, const NodeData& data) const;
 
 private:

@@ -59,7 +59,10 @@ void Assembler::end_step(const Stage& stage, Vec x, Vec v) {
   double *x_values = nullptr, *v_values = nullptr;
   check(VecGetArray(x, &x_values));
   check(VecGetArray(v, &v_values));
-  work_ += bodies_->end_step(stage, conserves(stage), x_values, v_values);
+  NodeData data{};
+  data.owned = network_.owned;
+  data.outside_r = outside_r_.data();
+  work_ += bodies_->end_step(stage, conserves(stage), data, x_values, v_values);
   check(VecRestoreArray(v, &v_values));
   check(VecRestoreArray(x, &x_values));
 }

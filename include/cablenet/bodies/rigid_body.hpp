@@ -86,8 +86,10 @@ struct Stage {
 /// @param seeds  none: values alone
 Stage evaluate(const Properties&, const Start&, const StepRule&, const RotationState& stage, const Seeds* seeds);
 
-/// w at the end of a conserving step: 2 W - w0.
-Vector3 conserving_end(const Start&, double dt, const Vector4& y1);
+/// w at the end of a conserving step by its momentum, I^-1 R1^T (R0 I w0 + dt torque): differences of attitudes have
+/// lost digits.
+/// @param torque  of all forces on the body, the constant one included, world frame [N m]
+Vector3 conserving_end(const Properties&, const Start&, double dt, const Vector4& y1, const Vector3& torque);
 
 /// Sum of F r^T over forces F at attachments r; all that the attitude's equations need of them.  [N m]
 using Moments = Matrix3;

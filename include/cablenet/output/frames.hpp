@@ -26,6 +26,8 @@ private:
 
   void fill_mesh(const network::Network& network, const partition::Partition& partition);
   void make_forests();
+  void fill_bodies(const network::Network& network);
+  void collect_bodies(const system::LocalState& state);
   void compute_tensions(const system::LocalState& state);
 
   const system::Assembler& assembler_;
@@ -38,6 +40,7 @@ private:
   std::vector<double> tension_, strain_, node_tension_;   ///< local
   std::vector<double> points_, velocity_, block_node_tension_, block_tension_, block_strain_;
   std::vector<double> elements_at_node_;   ///< per node of the block
+  std::vector<double> bodies_;             ///< on rank 0: positions, velocities, quaternions, angular velocities
 };
 
 }   // namespace cablenet::output
