@@ -43,29 +43,66 @@ void Elimination::add_source(BlockSource source) {
   sources_.push_back(source);
 }
 
+template <class Run, class Step>
+void Elimination::visit_forward(Run&& run, Step&& step) const {
+  int begin = 0;
+  for (const Large& large : large_) {
+    if (!run(begin, large.block) || !step(large)) return;
+    begin = large.block + 1;
+  }
+  run(begin, schedule_.eliminated());
+}
+
+template <class Run, class Step>
+void Elimination::visit_backward(Run&& run, Step&& step) const {
+  int end = schedule_.eliminated();
+  for (auto large = large_.rbegin(); large != large_.rend(); ++large) {
+    run(large->block + 1, end);
+    step(*large);
+    end = large->block;
+  }
+  run(0, end);
+}
+
 Pivots Elimination::factor(const Arrays& arrays) {
   std::fill(values_.begin() + schedule_.kept_values, values_.end(), 0.0);
-  if (!schedule_.uniform) return factor_mixed(arrays);
-  return schedule_.symmetric ? factor_uniform<true>(arrays) : factor_uniform<false>(arrays);
+  Pivots pivots;
+  const std::int64_t* target = schedule_.targets.data();
+  const auto run = [&](int begin, int end) {
+    const int reached = schedule_.symmetric ? factor_run<true>(begin, end, arrays, target, pivots.negative)
+                                            : factor_run<false>(begin, end, arrays, target, pivots.negative);
+    if (reached < end) pivots.singular = reached;
+    return reached == end;
+  };
+  const auto step = [&](const Large& large) {
+    const int negative = factor_large(large, arrays, target);
+    if (negative < 0) pivots.singular = large.block;
+    if (negative > 0) pivots.negative += negative;
+    return negative >= 0;
+  };
+  visit_forward(run, step);
+  return pivots;
 }
 
 template <bool symmetric>
-Pivots Elimination::factor_uniform(const Arrays& arrays) {
-  Pivots pivots;
+int Elimination::factor_run(int begin, int end, const Arrays& arrays, const std::int64_t*& next_target,
+                            int& all_negative) {
   double* const values = values_.data();
-  double* pivot = values;
-  double* upper = symmetric ? column_.data() : values + schedule_.upper_values;
-  double* lower = values + schedule_.lower_values;
-  const std::int64_t* target = schedule_.targets.data();
-  const BlockSource* source = sources_.data();
-  for (int k = 0; k < schedule_.eliminated(); ++k, pivot += 9) {
+  const int couplings = schedule_.first_later[at(begin)];
+  double* pivot = values + schedule_.pivot(begin);
+  double* lower = values + schedule_.lower_values + schedule_.coupling(couplings);
+  double* upper = symmetric ? column_.data() : values + schedule_.upper_values + schedule_.coupling(couplings);
+  const std::int64_t* target = next_target;
+  const BlockSource* source = sources_.data() + begin + (symmetric ? 1 : 2) * std::ptrdiff_t{couplings};
+  int k = begin;
+  for (; k < end; ++k, pivot += 9) {
     const int count = schedule_.first_later[at(k) + 1] - schedule_.first_later[at(k)];
     fetch(arrays[source->array] + source->offset + 27 * ahead, 4);
     for (const double* to : {pivot, lower, upper}) fetch(to + 9 * ahead, 1);
     load_block(pivot, *source++, arrays);
     const int negative = factor_block(pivot);
-    if (negative < 0) return {k, pivots.negative};
-    pivots.negative += negative;
+    if (negative < 0) break;
+    all_negative += negative;
     for (int i = 0; i < count; ++i) {
       if constexpr (!symmetric) load_block(upper + 9 * i, *source++, arrays);
       load_block(lower + 9 * i, *source++, arrays);
@@ -78,50 +115,74 @@ Pivots Elimination::factor_uniform(const Arrays& arrays) {
     lower += 9 * count;
     if constexpr (!symmetric) upper += 9 * count;
   }
-  return pivots;
+  next_target = target;
+  return k;
 }
 
-void Elimination::forward_uniform(double* w, double* kept) {
-  double* const shifted = kept - 3 * std::ptrdiff_t{schedule_.eliminated()};
-  const double* lower = values_.data() + schedule_.lower_values;
-  const int* later = schedule_.later.data();
-  for (int k = 0; k < schedule_.eliminated(); ++k) {
+template <bool mixed>
+void Elimination::forward_run(int begin, int end, double* w, double* shifted) {
+  const int* first = schedule_.first_later.data();
+  const double* lower = values_.data() + schedule_.lower_values + schedule_.coupling(first[begin]);
+  const int* later = schedule_.later.data() + first[begin];
+  const double* own = w + unknown<mixed>(begin);
+  for (int k = begin; k < end; ++k, own += 3) {
     fetch(lower + 9 * ahead, 2);
-    for (int i = schedule_.first_later[at(k)]; i < schedule_.first_later[at(k) + 1]; ++i, ++later, lower += 9)
-      subtract_product((*later < schedule_.eliminated() ? w : shifted) + 3 * std::ptrdiff_t{*later}, lower,
-                       w + 3 * std::ptrdiff_t{k});
+    for (int i = first[k]; i < first[k + 1]; ++i, ++later, lower += 9)
+      subtract_product((*later < schedule_.eliminated() ? w : shifted) + unknown<mixed>(*later), lower, own);
   }
 }
 
-template <bool symmetric>
-void Elimination::backward_uniform(double* w, const double* kept) {
-  const double* const shifted = kept - 3 * std::ptrdiff_t{schedule_.eliminated()};
-  const double* const coupling = values_.data() + (symmetric ? schedule_.lower_values : schedule_.upper_values);
-  for (int k = schedule_.eliminated() - 1; k >= 0; --k) {
-    const double* const pivot = values_.data() + 9 * std::ptrdiff_t{k};
-    double* const own = w + 3 * std::ptrdiff_t{k};
+template <bool symmetric, bool mixed>
+void Elimination::backward_run(int begin, int end, double* w, const double* shifted) {
+  const int* const first = schedule_.first_later.data();
+  const std::int64_t regions = symmetric ? schedule_.lower_values : schedule_.upper_values;
+  const double* const coupling = values_.data() + regions + schedule_.coupling(first[begin]);
+  const double* pivot = values_.data() + schedule_.pivot(begin) + 9 * std::ptrdiff_t{end - begin};
+  double* own = w + unknown<mixed>(begin) + 3 * std::ptrdiff_t{end - begin};
+  for (int k = end - 1; k >= begin; --k) {
+    pivot -= 9;
+    own -= 3;
     fetch(pivot - 9 * ahead, 2);
-    fetch(coupling + 9 * (schedule_.first_later[at(k)] - ahead), 2);
+    fetch(coupling + 9 * (first[k] - first[begin] - ahead), 2);
     if constexpr (symmetric) divide_left(own, pivot);
-    for (std::ptrdiff_t i = schedule_.first_later[at(k)]; i < schedule_.first_later[at(k) + 1]; ++i) {
+    for (std::ptrdiff_t i = first[k]; i < first[k + 1]; ++i) {
       const int j = schedule_.later[at(i)];
-      const double* const later = (j < schedule_.eliminated() ? w : shifted) + 3 * std::ptrdiff_t{j};
+      const double* const later = (j < schedule_.eliminated() ? w : shifted) + unknown<mixed>(j);
+      const double* const block = coupling + 9 * (i - first[begin]);
       if constexpr (symmetric)
-        subtract_transposed_product(own, coupling + 9 * i, later);
+        subtract_transposed_product(own, block, later);
       else
-        subtract_product(own, coupling + 9 * i, later);
+        subtract_product(own, block, later);
     }
     if constexpr (!symmetric) divide_left(own, pivot);
   }
 }
 
+std::ptrdiff_t Elimination::unknowns() const {
+  return schedule_.uniform ? unknown<false>(schedule_.eliminated()) : unknown<true>(schedule_.eliminated());
+}
+
 void Elimination::forward(double* w, double* kept) {
-  schedule_.uniform ? forward_uniform(w, kept) : forward_mixed(w, kept);
+  double* const shifted = kept - unknowns();
+  const auto run = [&](int begin, int end) {
+    schedule_.uniform ? forward_run<false>(begin, end, w, shifted) : forward_run<true>(begin, end, w, shifted);
+    return true;
+  };
+  const auto step = [&](const Large& large) {
+    forward_large(large, w, shifted);
+    return true;
+  };
+  visit_forward(run, step);
 }
 
 void Elimination::backward(double* w, const double* kept) {
-  if (!schedule_.uniform) return backward_mixed(w, kept);
-  schedule_.symmetric ? backward_uniform<true>(w, kept) : backward_uniform<false>(w, kept);
+  const double* const shifted = kept - unknowns();
+  const auto run = [&](int begin, int end) {
+    if (!schedule_.uniform) return backward_run<false, true>(begin, end, w, shifted);
+    schedule_.symmetric ? backward_run<true, false>(begin, end, w, shifted)
+                        : backward_run<false, false>(begin, end, w, shifted);
+  };
+  visit_backward(run, [&](const Large& large) { backward_large(large, w, shifted); });
 }
 
 }   // namespace cablenet::elimination

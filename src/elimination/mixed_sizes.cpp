@@ -1,112 +1,58 @@
-#include <Eigen/LU>
-#include <utility>
+#include <algorithm>
 
 #include "cablenet/elimination/elimination.hpp"
+#include "exchanged_rows.hpp"
+#include "sized_kernels.hpp"
+#include "uniform_kernels.hpp"
 
-/// The same elimination for blocks of different sizes, as bodies have: row exchanges within each pivot.
+/// The steps at which not all blocks are 3x3.
 namespace cablenet::elimination {
 namespace {
 
 std::size_t at(std::int64_t index) { return static_cast<std::size_t>(index); }
 
-using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, largest_block, largest_block>;
-using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, largest_block, 1>;
-using BlockMap = Eigen::Map<Block>;
-using ColumnMap = Eigen::Map<Column>;
-
-void load(BlockMap block, const BlockSource& source, const Arrays& arrays) {
-  if (source.absent) return;
-  const double* from = arrays[source.array] + source.offset;
-  const Eigen::Index down = source.transposed ? 1 : source.stride;
-  const Eigen::Index right = source.transposed ? source.stride : 1;
-  for (Eigen::Index r = 0; r < block.rows(); ++r)
-    for (Eigen::Index c = 0; c < block.cols(); ++c) {
-      const double value = from[r * down + c * right];
-      block(r, c) = source.touched ? block(r, c) + value : value;
-    }
+/// @returns the number of negative pivots, -1 if singular.
+int factor_pivot(double* pivot, int*, Size<3>) { return factor_block(pivot); }
+template <class Own>
+int factor_pivot(double* pivot, int* origin, Own own) {
+  const int sign = factor_block(pivot, origin, own);
+  return sign == 0 ? -1 : sign < 0;
 }
 
-/// P A = L U in place, rows exchanged for the largest pivot.
-/// @returns the sign of A's determinant, 0 if A is singular to rounding.
-int factor(BlockMap a, int* exchanges) {
-  const double least = std::numeric_limits<double>::epsilon() * a.cwiseAbs().maxCoeff();
-  int sign = 1;
-  for (Eigen::Index k = 0; k < a.rows(); ++k) {
-    Eigen::Index best = 0;
-    const double largest = a.col(k).tail(a.rows() - k).cwiseAbs().maxCoeff(&best);
-    if (!(largest > least)) return 0;
-    exchanges[k] = static_cast<int>(k + best);
-    if (best != 0) a.row(k).swap(a.row(k + best)), sign = -sign;
-    if (a(k, k) < 0) sign = -sign;
-    const Eigen::Index rest = a.rows() - k - 1;
-    a.col(k).tail(rest) /= a(k, k);
-    a.bottomRightCorner(rest, rest) -= (a.col(k).tail(rest) * a.row(k).tail(rest)).eval();
-  }
-  return sign;
+template <class Rows>
+void divide_by_pivot(double* lower, const double* pivot, const int*, Rows rows, Size<3>) {
+  divide_right(lower, pivot, rows);
+}
+template <class Rows, class Own>
+void divide_by_pivot(double* lower, const double* pivot, const int* origin, Rows rows, Own own) {
+  divide_right(lower, pivot, origin, rows, own);
 }
 
-void solve(const BlockMap& lu, const int* exchanges, Eigen::Ref<Column> w) {
-  for (Eigen::Index k = 0; k < lu.rows(); ++k) std::swap(w(k), w(exchanges[k]));
-  lu.triangularView<Eigen::UnitLower>().solveInPlace(w);
-  lu.triangularView<Eigen::Upper>().solveInPlace(w);
-}
-
-/// rows := rows A^-1.
-void divide_right(const BlockMap& lu, const int* exchanges, BlockMap rows) {
-  for (Eigen::Index r = 0; r < rows.rows(); ++r) {
-    Column w = rows.row(r).transpose();
-    lu.triangularView<Eigen::Upper>().transpose().solveInPlace(w);
-    lu.triangularView<Eigen::UnitLower>().transpose().solveInPlace(w);
-    for (Eigen::Index k = lu.rows() - 1; k >= 0; --k) std::swap(w(k), w(exchanges[k]));
-    rows.row(r) = w.transpose();
-  }
+void solve_pivot(double* w, const double* pivot, const int*, Size<3>) { divide_left(w, pivot); }
+template <class Own>
+void solve_pivot(double* w, const double* pivot, const int* origin, Own own) {
+  divide_left(w, pivot, origin, own);
 }
 
 }   // namespace
 
 void Elimination::prepare_mixed() {
-  int unknown = 0;
-  for (std::size_t k = 0; k < schedule_.size.size(); ++k) {
-    if (k == at(schedule_.eliminated())) unknown = 0;
+  int unknown = 0, exchanges = 0;
+  for (const int size : schedule_.size) {
     begin_.push_back(unknown);
-    unknown += schedule_.size[k];
+    unknown += size;
   }
-  exchanges_.resize(largest_block * at(schedule_.eliminated()));
-}
-
-Pivots Elimination::factor_mixed(const Arrays& arrays) {
-  Pivots pivots;
-  const std::int64_t* target = schedule_.targets.data();
-  std::size_t number = 0;
-  const auto load_next = [&](double* to, int rows, int columns) {
-    load({to, rows, columns}, sources_[number++], arrays);
-  };
+  begin_.push_back(unknown);
   for (int k = 0; k < schedule_.eliminated(); ++k) {
     const int own = schedule_.size[at(k)];
-    double* const pivot = values_.data() + schedule_.pivot(k);
-    int* const exchanges = exchanges_.data() + largest_block * k;
-    load_next(pivot, own, own);
-    const int sign = elimination::factor({pivot, own, own}, exchanges);
-    if (sign == 0) return {k, pivots.negative};
-    if (sign < 0) ++pivots.negative;
-    visit_later(k, [&](double* upper, double* lower, int j) {
-      const int size = schedule_.size[at(j)];
-      load_next(upper, own, size);
-      load_next(lower, size, own);
-      divide_right({pivot, own, own}, exchanges, {lower, size, own});
-    });
-    visit_later(k, [&](double*, double* lower, int i) {
-      visit_later(k, [&](double* upper, double*, int j) {
-        const int rows = schedule_.size[at(i)], columns = schedule_.size[at(j)];
-        const bool first = *target < 0;
-        BlockMap to(values_.data() + (first ? ~*target : *target), rows, columns);
-        ++target;
-        if (first) to.setZero();
-        to.noalias() -= BlockMap(lower, rows, own).lazyProduct(BlockMap(upper, own, columns));
-      });
-    });
+    const auto later = schedule_.later.begin();
+    if (own == 3 && std::all_of(later + schedule_.first_later[at(k)], later + schedule_.first_later[at(k) + 1],
+                                [this](int j) { return schedule_.size[at(j)] == 3; }))
+      continue;
+    large_.push_back({k, exchanges});
+    if (own != 3) exchanges += own;
   }
-  return pivots;
+  origins_.resize(at(exchanges));
 }
 
 template <class Visit>
@@ -118,28 +64,60 @@ void Elimination::visit_later(int k, Visit&& visit) {
   }
 }
 
-void Elimination::forward_mixed(double* w, double* kept) {
-  for (int k = 0; k < schedule_.eliminated(); ++k) {
-    const int own = schedule_.size[at(k)];
-    visit_later(k, [&](double*, double* lower, int j) {
-      double* const to = (j < schedule_.eliminated() ? w : kept) + begin_[at(j)];
-      const int size = schedule_.size[at(j)];
-      ColumnMap(to, size) -= BlockMap(lower, size, own).lazyProduct(ColumnMap(w + begin_[at(k)], own));
+template <class Own>
+int Elimination::factor_step(const Large& step, Own own, const Arrays& arrays, const std::int64_t*& target) {
+  const int k = step.block;
+  double* const pivot = values_.data() + schedule_.pivot(k);
+  int* const origin = origins_.data() + step.origins;
+  const BlockSource* source = sources_.data() + k + 2 * std::ptrdiff_t{schedule_.first_later[at(k)]};
+  load_block(pivot, *source++, arrays, own, own);
+  const int negative = factor_pivot(pivot, origin, own);
+  if (negative < 0) return negative;
+  visit_later(k, [&](double* upper, double* lower, int j) {
+    with_size(schedule_.size[at(j)], [&](auto size) {
+      load_block(upper, *source++, arrays, own, size);
+      load_block(lower, *source++, arrays, size, own);
+      divide_by_pivot(lower, pivot, origin, size, own);
     });
-  }
+  });
+  visit_later(k, [&](double*, double* lower, int i) {
+    with_size(schedule_.size[at(i)], [&](auto rows) {
+      visit_later(k, [&](double* upper, double*, int j) {
+        const std::int64_t place = *target++;
+        with_size(schedule_.size[at(j)], [&](auto columns) {
+          update_block(values_.data() + (place < 0 ? ~place : place), place < 0, lower, upper, rows, own, columns);
+        });
+      });
+    });
+  });
+  return negative;
 }
 
-void Elimination::backward_mixed(double* w, const double* kept) {
-  for (int k = schedule_.eliminated() - 1; k >= 0; --k) {
-    const int own = schedule_.size[at(k)];
-    ColumnMap mine(w + begin_[at(k)], own);
-    visit_later(k, [&](double* upper, double*, int j) {
-      const double* const from = (j < schedule_.eliminated() ? w : kept) + begin_[at(j)];
-      const int size = schedule_.size[at(j)];
-      mine -= BlockMap(upper, own, size).lazyProduct(Eigen::Map<const Column>(from, size));
+int Elimination::factor_large(const Large& step, const Arrays& arrays, const std::int64_t*& target) {
+  int negative = 0;
+  with_size(schedule_.size[at(step.block)], [&](auto own) { negative = factor_step(step, own, arrays, target); });
+  return negative;
+}
+
+void Elimination::forward_large(const Large& step, double* w, double* shifted) {
+  const double* const mine = w + begin_[at(step.block)];
+  with_size(schedule_.size[at(step.block)], [&](auto own) {
+    visit_later(step.block, [&](double*, double* lower, int j) {
+      double* const to = (j < schedule_.eliminated() ? w : shifted) + begin_[at(j)];
+      with_size(schedule_.size[at(j)], [&](auto size) { subtract_product(to, lower, mine, size, own); });
     });
-    solve({values_.data() + schedule_.pivot(k), own, own}, exchanges_.data() + largest_block * k, mine);
-  }
+  });
+}
+
+void Elimination::backward_large(const Large& step, double* w, const double* shifted) {
+  double* const mine = w + begin_[at(step.block)];
+  with_size(schedule_.size[at(step.block)], [&](auto own) {
+    visit_later(step.block, [&](double* upper, double*, int j) {
+      const double* const from = (j < schedule_.eliminated() ? w : shifted) + begin_[at(j)];
+      with_size(schedule_.size[at(j)], [&](auto size) { subtract_product(mine, upper, from, own, size); });
+    });
+    solve_pivot(mine, values_.data() + schedule_.pivot(step.block), origins_.data() + step.origins, own);
+  });
 }
 
 }   // namespace cablenet::elimination

@@ -10,6 +10,8 @@ namespace {
 
 std::size_t at(std::int64_t index) { return static_cast<std::size_t>(index); }
 
+constexpr double products_in_block = 27;   // of two 3x3 blocks
+
 /// Lays the schedule down; later neighbours come from the elimination tree: a block hands its own to the first of them.
 class Planner {
 public:
@@ -70,17 +72,21 @@ bool Planner::find_later_neighbours(double most_updates) {
   plan_.first_later.reserve(count + 1);
   plan_.later.reserve(count);
   std::vector<int> found;
+  double products = 0;
   for (int k = 0; k < pattern_.eliminated; ++k) {
     collect(k, found);
     plan_.later.insert(plan_.later.end(), found.begin(), found.end());
     plan_.first_later.push_back(static_cast<int>(plan_.later.size()));
-    const double m = static_cast<double>(found.size());
-    plan_.updates += plan_.symmetric ? m * (m + 1) / 2 : m * m;
-    if (plan_.updates > most_updates) return false;
+    int unknowns = 0;
+    for (const int j : found) unknowns += plan_.size[at(j)];
+    const double m = unknowns;
+    products += plan_.size[at(k)] * (plan_.symmetric ? m * (m + 3) / 2 : m * m);
+    if (products > most_updates * products_in_block) return false;
     if (found.empty() || found.front() >= pattern_.eliminated) continue;
     next_sibling_[at(k)] = first_child_[at(found.front())];
     first_child_[at(found.front())] = k;
   }
+  plan_.updates = products / products_in_block;
   return true;
 }
 
@@ -97,6 +103,8 @@ void Planner::place_values() {
         one_side += plan_.size[at(k)] * plan_.size[at(plan_.later[at(i)])];
       }
     }
+    plan_.mixed_pivots.push_back(pivots);
+    plan_.mixed_couplings.push_back(one_side);
   }
   plan_.upper_values = pivots;
   plan_.lower_values = pivots + (plan_.symmetric ? 0 : one_side);

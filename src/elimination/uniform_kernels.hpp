@@ -50,8 +50,8 @@ inline int factor_block(double* a) {
 }
 
 /// w D^-1 for each row w.
-inline void divide_right(double* rows, const double* d) {
-  for (int r = 0; r < 3; ++r, rows += 3) {
+inline void divide_right(double* rows, const double* d, int count = 3) {
+  for (int r = 0; r < count; ++r, rows += 3) {
     const double w0 = rows[0] * d[0];
     const double w1 = (rows[1] - w0 * d[1]) * d[4];
     const double w2 = (rows[2] - w0 * d[2] - w1 * d[5]) * d[8];

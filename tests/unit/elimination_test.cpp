@@ -126,6 +126,10 @@ const std::vector<Case> cases{
     {"bodies", {3, 3, 7, 3, 3, 7, 6, 3}, 8, loops, false},
     {"bodies_kept", {3, 3, 7, 3, 3, 7, 6, 3}, 6, loops, false},
     {"bodies_symmetric", {3, 3, 7, 3, 3, 7, 6, 3}, 6, loops, true},
+    {"bodies_side_by_side", {7, 3, 7, 6, 7, 3, 6, 6}, 8, loops, false},
+    {"bodies_all_kept", {3, 3, 3, 3, 3, 6, 7, 7}, 5, loops, false},
+    {"bodies_only", {6, 7, 6, 7, 7, 6, 7, 6}, 6, loops, false},
+    {"sizes_of_neither", {5, 3, 7, 4, 1, 6, 3, 2}, 6, loops, false},
     {"nothing", {}, 0, {}, false},
 };
 
@@ -146,6 +150,30 @@ System stiff_chain(int nodes, double stiffness, double mass, bool symmetric) {
     s.matrix.block<3, 3>(3 * i + 3, 3 * i + 3) += K + 2 * M;
     s.matrix.block<3, 3>(3 * i, 3 * i + 3) = M - K;
     s.matrix.block<3, 3>(3 * i + 3, 3 * i) = M - K;
+  }
+  return s;
+}
+
+/// A stiff chain on nodes of 1 kg with a light body, that attachments far from its centre turn, after every second.
+System stiff_bodies(int blocks) {
+  Edges edges;
+  std::vector<int> size;
+  for (int i = 0; i < blocks; ++i) size.push_back(i % 3 == 2 ? 7 : 3);
+  for (int i = 1; i < blocks; ++i) edges.emplace_back(i - 1, i);
+  System s{size, blocks, edges, {}};
+  s.matrix = Dense::Zero(s.unknowns(), s.unknowns());
+  for (int i = 0; i < blocks; ++i) {
+    s.matrix.diagonal().segment(s.begin(i), 3).array() += 1;
+    s.matrix.diagonal().segment(s.begin(i) + 3, size[at(i)] - 3).array() += 1e-2;
+    if (i == 0) continue;
+    const int unknowns = size[at(i - 1)] + size[at(i)];
+    const Eigen::Vector3d e = Eigen::Vector3d(1 + noise(3 * i), noise(3 * i + 1), noise(3 * i + 2)).normalized();
+    int seed = 50 * i;
+    Eigen::Matrix3Xd arms = Eigen::Matrix3Xd::NullaryExpr(3, unknowns, [&] { return 5 * noise(++seed); });
+    arms.leftCols<3>() = -Eigen::Matrix3d::Identity();
+    arms.middleCols<3>(size[at(i - 1)]) = Eigen::Matrix3d::Identity();
+    const Eigen::RowVectorXd stretch = e.transpose() * arms;
+    s.matrix.block(s.begin(i - 1), s.begin(i - 1), unknowns, unknowns) += 1e9 * stretch.transpose() * stretch;
   }
   return s;
 }
@@ -190,6 +218,32 @@ TEST(Elimination, KeepsItsDigitsOnStiffElements) {
   }
 }
 
+TEST(Elimination, KeepsItsDigitsOnLightBodiesAtStiffElements) {
+  const System s = stiff_bodies(90);
+  const Eigen::VectorXd exact = random_vector(s.unknowns()), b = s.matrix * exact;
+  const Eigen::VectorXd x = solve(s, false, b), dense = s.matrix.partialPivLu().solve(b);
+  EXPECT_LE((s.matrix * x - b).norm(), 1e-14 * b.norm());
+  EXPECT_LE((x - exact).norm(), 2 * (dense - exact).norm());
+}
+
+TEST(Elimination, ExchangesRowsWithinABody) {
+  for (const int body : {5, 6, 7}) {
+    System s = random_system({3, body, 3, body}, 4, {{0, 1}, {1, 2}, {2, 3}}, false);
+    for (const int block : {1, 3})
+      s.matrix.middleRows(s.begin(block), body) = s.matrix.middleRows(s.begin(block), body).colwise().reverse().eval();
+    const Eigen::VectorXd b = random_vector(s.unknowns());
+    EXPECT_LE((s.matrix * solve(s, false, b) - b).norm(), 1e-13 * b.norm());
+  }
+}
+
+TEST(Elimination, HoldsPivotsAgainstTheirColumns) {
+  System s = random_system({7}, 1, {}, false);
+  s.matrix.rightCols<4>() *= 1e-20;
+  EXPECT_EQ(s.elimination(false).factor({s.matrix.data(), nullptr, nullptr}).singular, -1);
+  s.matrix.col(5) = s.matrix.col(3);
+  EXPECT_EQ(s.elimination(false).factor({s.matrix.data(), nullptr, nullptr}).singular, 0);
+}
+
 TEST(Elimination, NamesTheSingularPivot) {
   for (const bool symmetric : {false, true}) {
     System s = random_system(std::vector<int>(6, 3), 6, chain, symmetric);
@@ -204,6 +258,9 @@ TEST(Elimination, NamesTheSingularPivot) {
   System bodies = random_system({3, 7, 3}, 3, {{0, 1}, {1, 2}}, false);
   bodies.matrix.middleRows<7>(3).setZero();
   EXPECT_EQ(bodies.elimination(false).factor({bodies.matrix.data(), nullptr, nullptr}).singular, 1);
+  bodies.matrix.middleRows<7>(3) = random_system({3, 7, 3}, 3, {{0, 1}, {1, 2}}, false).matrix.middleRows<7>(3);
+  bodies.matrix(8, 5) = std::nan("");
+  EXPECT_EQ(bodies.elimination(false).factor({bodies.matrix.data(), nullptr, nullptr}).singular, 1);
 }
 
 TEST(Elimination, CountsNegativeEigenvalues) {
@@ -215,6 +272,14 @@ TEST(Elimination, CountsNegativeEigenvalues) {
   EXPECT_GT(pivots.negative, 3);
 }
 
+TEST(Elimination, CountsWhetherABodyHasAnOddNumberOfNegativeEigenvalues) {
+  System s = random_system({3, 7, 3, 6, 7, 3}, 6, chain, true);
+  s.matrix *= 0.1;
+  for (const auto& [block, negative] : {std::pair{0, 3}, {1, 5}, {3, 4}, {4, 1}, {5, 1}})
+    s.matrix.diagonal().segment(s.begin(block), negative).array() -= 2;
+  EXPECT_EQ(s.elimination(false).factor({s.matrix.data(), nullptr, nullptr}).negative, 3 + 1 + 0 + 1 + 1);
+}
+
 TEST(Schedule, CountsItsWorkAndGivesUpBeyondTheLimit) {
   const System s = random_system(std::vector<int>(7, 3), 7, tree, false);
   EXPECT_EQ(make_schedule(s.pattern(), false)->updates, 6);
@@ -224,8 +289,14 @@ TEST(Schedule, CountsItsWorkAndGivesUpBeyondTheLimit) {
 }
 
 TEST(Schedule, AStarCostsLinearlyInItsArms) {
-  Edges star;
-  for (int i = 0; i < 200; ++i) star.emplace_back(i, 200);
-  const System s = random_system(std::vector<int>(201, 3), 201, star, false);
-  EXPECT_EQ(make_schedule(s.pattern(), false)->updates, 200);
+  for (const int hub : {3, 7})
+    for (const int arms : {100, 200})
+      for (const bool kept : {false, true}) {
+        Edges star;
+        for (int i = 0; i < arms; ++i) star.emplace_back(i, arms);
+        std::vector<int> size(at(arms), 3);
+        size.push_back(hub);
+        const System s{size, kept ? arms : arms + 1, star, {}};
+        EXPECT_NEAR(make_schedule(s.pattern(), false)->updates, arms * hub * hub / 9.0, 1e-9);
+      }
 }

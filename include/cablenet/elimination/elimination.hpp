@@ -32,7 +32,9 @@ using Arrays = std::array<const double*, 3>;
 /// What became of the pivots.
 struct Pivots {
   int singular = -1;   ///< the first block whose pivot is singular to rounding; the elimination ended there
-  int negative = 0;    ///< negative pivots: with a symmetric matrix, its negative eigenvalues
+  /// Negative pivots: with a symmetric matrix, its negative eigenvalues; of a block that is not 3x3, whose rows are
+  /// exchanged, 1 where their number is odd.
+  int negative = 0;
 };
 
 /// Not symmetric where sizes are mixed.
@@ -54,25 +56,51 @@ public:
   void backward(double* w, const double* kept);
 
 private:
-  template <bool symmetric>
-  Pivots factor_uniform(const Arrays& arrays);
-  void prepare_mixed();
-  Pivots factor_mixed(const Arrays& arrays);
-  void forward_uniform(double* w, double* kept);
-  template <bool symmetric>
-  void backward_uniform(double* w, const double* kept);
+  /// A step at which not all blocks are 3x3; where the pivot is not, its row exchanges begin at `origins`.
+  struct Large {
+    int block, origins;
+  };
+
   void add_source(BlockSource source);
+  void prepare_mixed();
+  /// run(begin, end) for the 3x3 blocks between two large ones, step(large), run(begin, end), and so on; until one
+  /// returns false.
+  template <class Run, class Step>
+  void visit_forward(Run&& run, Step&& step) const;
+  /// The same from behind.
+  template <class Run, class Step>
+  void visit_backward(Run&& run, Step&& step) const;
+  /// @param target  of the first update; gets the next after the last one
+  /// @returns the first block whose pivot is singular, or `end`
+  template <bool symmetric>
+  int factor_run(int begin, int end, const Arrays& arrays, const std::int64_t*& target, int& negative);
+  /// @param shifted  the kept blocks' unknowns, counted from the first of the eliminated ones
+  template <bool mixed>
+  void forward_run(int begin, int end, double* w, double* shifted);
+  template <bool symmetric, bool mixed>
+  void backward_run(int begin, int end, double* w, const double* shifted);
+  template <bool mixed>
+  std::ptrdiff_t unknown(int block) const {
+    return mixed ? begin_[static_cast<std::size_t>(block)] : 3 * std::ptrdiff_t{block};
+  }
+  /// Of the eliminated blocks.
+  std::ptrdiff_t unknowns() const;
+  /// @returns the number of negative pivots, -1 if the pivot is singular
+  int factor_large(const Large& step, const Arrays& arrays, const std::int64_t*& target);
+  template <class Own>
+  int factor_step(const Large& step, Own own, const Arrays& arrays, const std::int64_t*& target);
+  void forward_large(const Large& step, double* w, double* shifted);
+  void backward_large(const Large& step, double* w, const double* shifted);
   /// visit(block (k, j), block (j, k), j) for each later neighbour j
   template <class Visit>
   void visit_later(int k, Visit&& visit);
-  void forward_mixed(double* w, double* kept);
-  void backward_mixed(double* w, const double* kept);
 
   Schedule schedule_;
   std::vector<BlockSource> sources_;   ///< in the order of factoring
   std::vector<double> values_;
-  std::vector<int> begin_;       ///< mixed sizes: each block's first unknown, kept ones' from the first of them
-  std::vector<int> exchanges_;   ///< mixed sizes: row exchanges of the pivots, largest_block per eliminated block
+  std::vector<Large> large_;
+  std::vector<int> begin_;       ///< mixed sizes: each block's first unknown, and one past the last
+  std::vector<int> origins_;     ///< of the rows of pivots that are not 3x3
   std::vector<double> column_;   ///< symmetric: the blocks below a pivot before they are divided by it
 };
 

@@ -43,10 +43,11 @@ struct Schedule {
   /// Per block k and pair (i, j) of its later neighbours, row after row (symmetric: j not after i): where the update of
   /// (i, j) goes; ~place where it is the first there.
   std::vector<std::int64_t> targets;
-  std::vector<std::int64_t> mixed_pivots, mixed_couplings;   ///< where they begin in their regions, if not uniform
+  /// If not uniform: where they begin in their regions, and the ends.
+  std::vector<std::int64_t> mixed_pivots, mixed_couplings;
   std::int64_t upper_values = 0, lower_values = 0, kept_values = 0;   ///< where the regions begin
   std::int64_t values = 0;                                            ///< in all
-  double updates = 0;                                                 ///< block products in a factorisation
+  double updates = 0;   ///< products of 3x3 blocks in a factorisation, or as much work
 
   int eliminated() const { return static_cast<int>(first_later.size()) - 1; }
   std::int64_t pivot(int k) const { return uniform ? 9 * std::int64_t{k} : mixed_pivots[static_cast<std::size_t>(k)]; }
