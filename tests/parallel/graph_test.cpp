@@ -59,6 +59,23 @@ TEST(EliminationOrder, TreesWithOneKeptVertexHaveNoFill) {
   }
 }
 
+/// A body with many cables: whatever is left of the last one may stand behind it.
+TEST(EliminationOrder, AHubComesAfterAllItsArmsButOne) {
+  constexpr int arms = 200, length = 5, hub = 37, vertices = arms * length + 1;
+  Edges edges;
+  int next = 0;
+  for (int arm = 0; arm < arms; ++arm)
+    for (int i = 0, last = hub; i < length; ++i, last = next++) {
+      if (next == hub) ++next;
+      edges.emplace_back(last, next);
+    }
+  const Order found = order_of(vertices, edges);
+  EXPECT_LE(*std::max_element(found.later.begin(), found.later.end()), 1);
+  const auto behind = found.order.end() - std::find(found.order.begin(), found.order.end(), hub);
+  EXPECT_LE(behind, length + 1);
+  EXPECT_EQ(order_of(vertices, edges, {hub}).later, std::vector<int>(vertices - 1, 1));
+}
+
 TEST(EliminationOrder, ForestsAndLonelyVertices) {
   EXPECT_LE(most_later(10, {{0, 1}, {1, 2}, {4, 5}, {7, 4}, {4, 8}}), 1);
   EXPECT_TRUE(partition::elimination_order({{0}, {}}).empty());
