@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cablenet/elimination/elimination.hpp"
+#include "cablenet/partition/blocks.hpp"
 
 namespace cablenet::solve {
 
@@ -13,8 +14,9 @@ namespace cablenet::solve {
 /// column.  A symmetric matrix does not need it.
 class CouplingExchange {
 public:
-  /// @param tag  not in use by others on the communicator
-  CouplingExchange(MPI_Comm communicator, int tag) : communicator_(communicator), tag_(tag) {}
+  /// @param blocks  by solver number   @param tag  not in use by others on the communicator
+  CouplingExchange(MPI_Comm communicator, const partition::Blocks& blocks, int tag)
+      : communicator_(communicator), blocks_(blocks), tag_(tag) {}
 
   /// Both are named by solver numbers; every block must be told to both ranks before the first run().
   void add_send(int rank, int row, int column, const elimination::BlockSource& source) {
@@ -30,7 +32,7 @@ public:
   void run(const elimination::Arrays& arrays);
 
 private:
-  using Blocks = std::map<std::pair<int, int>, elimination::BlockSource>;
+  using Couplings = std::map<std::pair<int, int>, elimination::BlockSource>;
 
   /// A neighbour's share of a buffer.
   struct Message {
@@ -38,10 +40,17 @@ private:
     std::size_t begin, values;
   };
 
+  /// What is sent of one coupling.
+  struct Sent {
+    elimination::BlockSource source;
+    int rows, columns;
+  };
+
   MPI_Comm communicator_;
+  const partition::Blocks& blocks_;
   int tag_;
-  std::map<int, Blocks> sends_, receives_;
-  std::vector<elimination::BlockSource> sources_;   ///< of what is sent
+  std::map<int, Couplings> sends_, receives_;
+  std::vector<Sent> sources_;
   std::vector<Message> to_, from_;
   std::vector<double> sent_, received_;
   std::vector<MPI_Request> requests_;

@@ -26,29 +26,38 @@ partition::Graph rows_of(const partition::Graph& graph) {
 
 }   // namespace
 
-elimination::Pattern InterfaceSystem::pattern(const partition::Interface& interface) {
-  const int nodes = static_cast<int>(interface.number.size());
-  return {std::vector<int>(at(nodes), 3), nodes, nodes == 0 ? std::vector<int>{0} : interface.graph.first,
-          interface.graph.adjacent};
+elimination::Pattern InterfaceSystem::pattern(const partition::Interface& interface, const partition::Blocks& blocks) {
+  std::vector<int> size;
+  for (const int number : interface.number) size.push_back(blocks.size(number));
+  const int nodes = static_cast<int>(size.size());
+  return {std::move(size), nodes, nodes == 0 ? std::vector<int>{0} : interface.graph.first, interface.graph.adjacent};
 }
 
 InterfaceSystem::InterfaceSystem(const partition::Interface& interface, elimination::Schedule schedule,
                                  MPI_Comm communicator)
-    : communicator_(communicator), rows_(rows_of(interface.graph)), failures_(3 * interface.number.size()) {
-  sum_.resize(failures_ + 1 + 9 * rows_.adjacent.size());
+    : communicator_(communicator), rows_(rows_of(interface.graph)), begin_(1, 0) {
+  for (const int size : schedule.size) begin_.push_back(begin_.back() + at(size));
+  failures_ = begin_.back();
+  std::size_t values = failures_ + 1;
+  for (int row = 0; row < rows_.vertices(); ++row)
+    for (int i = rows_.first[at(row)]; i < rows_.first[at(row) + 1]; ++i) {
+      places_.push_back(values);
+      values += at(size(row) * size(rows_.adjacent[at(i)]));
+    }
+  sum_.resize(values);
   const auto where = [this](int row, int column) {
-    const auto begin = rows_.adjacent.begin() + rows_.first[at(row)];
-    const auto end = rows_.adjacent.begin() + rows_.first[at(row) + 1];
-    if (!std::binary_search(begin, end, column)) return elimination::BlockSource{};
-    return elimination::block_source(static_cast<int>(block(row, column)), 3, 0);
+    const auto first = rows_.adjacent.begin() + rows_.first[at(row)];
+    const auto last = rows_.adjacent.begin() + rows_.first[at(row) + 1];
+    if (!std::binary_search(first, last, column)) return elimination::BlockSource{};
+    return elimination::block_source(static_cast<int>(place(row, column).begin), size(column), 0);
   };
   elimination_ = std::make_unique<elimination::Elimination>(std::move(schedule), where);
 }
 
-std::size_t InterfaceSystem::block(int row, int column) const {
-  const auto begin = rows_.adjacent.begin() + rows_.first[at(row)];
-  const auto found = std::lower_bound(begin, rows_.adjacent.begin() + rows_.first[at(row) + 1], column);
-  return failures_ + 1 + 9 * static_cast<std::size_t>(found - rows_.adjacent.begin());
+InterfaceSystem::Place InterfaceSystem::place(int row, int column) const {
+  const auto first = rows_.adjacent.begin() + rows_.first[at(row)];
+  const auto found = std::lower_bound(first, rows_.adjacent.begin() + rows_.first[at(row) + 1], column);
+  return {places_[static_cast<std::size_t>(found - rows_.adjacent.begin())], size(row), size(column)};
 }
 
 void InterfaceSystem::clear(bool new_matrix) {
@@ -56,10 +65,12 @@ void InterfaceSystem::clear(bool new_matrix) {
   std::fill(sum_.begin(), new_matrix ? sum_.end() : sum_.begin() + static_cast<std::ptrdiff_t>(failures_) + 1, 0.0);
 }
 
-void InterfaceSystem::add(std::size_t block, const double* values, std::size_t stride, bool transposed) {
-  double* to = sum_.data() + block;
-  for (std::size_t r = 0; r < 3; ++r)
-    for (std::size_t c = 0; c < 3; ++c) to[3 * r + c] += transposed ? values[c * stride + r] : values[r * stride + c];
+void InterfaceSystem::add(const Place& block, const double* values, std::size_t stride, bool transposed) {
+  double* to = sum_.data() + block.begin;
+  const std::size_t down = transposed ? 1 : stride, right = transposed ? stride : 1;
+  const std::size_t rows = at(block.rows), columns = at(block.columns);
+  for (std::size_t r = 0; r < rows; ++r)
+    for (std::size_t c = 0; c < columns; ++c) *to++ += values[r * down + c * right];
 }
 
 bool InterfaceSystem::solve() {

@@ -8,21 +8,23 @@ namespace cablenet::solve {
 
 using petsc::check;
 
-MatrixBlocks::MatrixBlocks(Mat matrix) {
+MatrixBlocks::MatrixBlocks(Mat matrix, const partition::Blocks& blocks) : blocks_(blocks) {
   PetscBool distributed = PETSC_FALSE;
   check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(matrix), MATMPIAIJ, &distributed));
   parts_[0].matrix = matrix;
   if (distributed) check(MatMPIAIJGetSeqAIJ(matrix, &parts_[0].matrix, &parts_[1].matrix, &names_));
   PetscInt begin = 0, end = 0;
   check(MatGetOwnershipRange(matrix, &begin, &end));
-  first_ = static_cast<int>(begin / 3);
-  rows_ = static_cast<int>((end - begin) / 3);
+  first_unknown_ = begin;
+  first_ = blocks.block_of(static_cast<int>(begin));
+  rows_ = blocks.block_of(static_cast<int>(end)) - first_;
   for (Part& part : parts_) {
     PetscBool done = PETSC_TRUE;
     if (part.matrix != nullptr)
       check(MatGetRowIJ(part.matrix, 0, PETSC_FALSE, PETSC_FALSE, &part.count, &part.row, &part.column, &done));
     if (done == PETSC_FALSE) throw petsc::Failure("the matrix does not show its rows; it must be of type aij");
   }
+  if (!blocks.uniform()) find_mixed();
 }
 
 MatrixBlocks::~MatrixBlocks() {
@@ -32,18 +34,35 @@ MatrixBlocks::~MatrixBlocks() {
       (void)MatRestoreRowIJ(part.matrix, 0, PETSC_FALSE, PETSC_FALSE, &part.count, &part.row, &part.column, &done);
 }
 
+void MatrixBlocks::find_mixed() {
+  for (int row = 0; row < rows_; ++row) {
+    const int size = blocks_.size(first_ + row);
+    begin_.push_back(static_cast<int>(parts_[0].mixed.size()));
+    parts_[0].mixed.insert(parts_[0].mixed.end(), at(size), {first_ + row, size});
+  }
+  begin_.push_back(static_cast<int>(parts_[0].mixed.size()));
+  if (parts_[1].matrix == nullptr) return;
+  PetscInt columns = 0;
+  check(MatGetLocalSize(parts_[1].matrix, nullptr, &columns));
+  for (PetscInt local = 0; local < columns; ++local) {
+    const int block = blocks_.block_of(static_cast<int>(names_[local]));
+    parts_[1].mixed.push_back({block, blocks_.size(block)});
+  }
+}
+
 elimination::BlockSource MatrixBlocks::find(int row, int column) const {
   const unsigned index = is_own(column) ? 0 : 1;
   const Part& part = parts_[index];
   if (part.matrix == nullptr) return {};
-  const PetscInt* const begin = part.column + part.row[3 * row];
-  const PetscInt* const end = part.column + part.row[3 * row + 1];
-  const auto name = [&](PetscInt local) { return index == 0 ? local + 3 * first_ : names_[local]; };
-  const PetscInt wanted = 3 * column;
+  const PetscInt* const row_of_part = part.row + begin(row);
+  const PetscInt* const start = part.column + row_of_part[0];
+  const PetscInt* const end = part.column + row_of_part[1];
+  const auto name = [&](PetscInt local) { return index == 0 ? local + first_unknown_ : names_[local]; };
+  const PetscInt wanted = is_uniform() ? 3 * column : blocks_.begin(column);
   const PetscInt* found =
-      std::lower_bound(begin, end, wanted, [&](PetscInt local, PetscInt w) { return name(local) < w; });
+      std::lower_bound(start, end, wanted, [&](PetscInt local, PetscInt w) { return name(local) < w; });
   if (found == end || name(*found) != wanted) return {};
-  return elimination::block_source(static_cast<int>(found - part.column), static_cast<int>(end - begin), index);
+  return elimination::block_source(static_cast<int>(found - part.column), static_cast<int>(end - start), index);
 }
 
 elimination::Arrays MatrixBlocks::values(const double* exchanged) const {

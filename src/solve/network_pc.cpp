@@ -37,22 +37,26 @@ void NetworkPc::Impl::add_to_interface(const double* b) {
   interface_->clear(new_matrix_);
   if (is_singular_) interface_->add_failure();
   const auto add_right_side = [this](int node, const double* values) {
-    for (std::size_t c = 0; c < 3; ++c) interface_->right_side(node)[c] += values[c];
+    double* const to = interface_->right_side(node);
+    for (int c = 0; c < interface_->size(node); ++c) to[c] += *values++;
+    return values;
   };
-  for (std::size_t i = 0; i < kept_.size(); ++i) add_right_side(kept_[i], kept_values_.data() + 3 * i);
-  for (std::size_t i = 0; i < own_places_.size(); ++i) add_right_side(own_places_[i], b + 3 * (at(interior_) + i));
+  const double* from_interior = kept_values_.data();
+  for (const int node : kept_) from_interior = add_right_side(node, from_interior);
+  const double* own = b + interior_unknowns();
+  for (const int node : own_places_) own = add_right_side(node, own);
   if (!new_matrix_) return;
   elimination::Arrays arrays = blocks_.values(nullptr);
   for (const auto& [from, to] : own_shares_) interface_->add(to, arrays[from.array] + from.offset, from.stride, false);
   blocks_.release(arrays);
-  for (const auto& [values, to, transposed] : left_shares_) interface_->add(to, values, 3, transposed);
+  for (const auto& [values, stride, to, transposed] : left_shares_) interface_->add(to, values, stride, transposed);
 }
 
 /// @returns false if the matrix is singular
 bool NetworkPc::Impl::solve(const double* b, double* x) {
   if (numbers_.empty() && is_singular_) return false;
   std::optional<petsc::Timer> timer(petsc::Phase::solve);
-  std::copy_n(b, 3 * std::ptrdiff_t{interior_}, x);
+  std::copy_n(b, interior_unknowns(), x);
   std::fill(kept_values_.begin(), kept_values_.end(), 0.0);
   if (!is_singular_) elimination_->forward(x, kept_values_.data());
   if (!numbers_.empty()) {
@@ -61,10 +65,11 @@ bool NetworkPc::Impl::solve(const double* b, double* x) {
     if (!interface_->solve()) return false;
     timer.emplace(petsc::Phase::solve);
     new_matrix_ = false;
-    for (std::size_t i = 0; i < kept_.size(); ++i)
-      std::copy_n(interface_->solution(kept_[i]), 3, kept_values_.data() + 3 * i);
-    for (std::size_t i = 0; i < own_places_.size(); ++i)
-      std::copy_n(interface_->solution(own_places_[i]), 3, x + 3 * (at(interior_) + i));
+    double* to_interior = kept_values_.data();
+    for (const int node : kept_)
+      to_interior = std::copy_n(interface_->solution(node), interface_->size(node), to_interior);
+    double* own = x + interior_unknowns();
+    for (const int node : own_places_) own = std::copy_n(interface_->solution(node), interface_->size(node), own);
   }
   elimination_->backward(x, kept_values_.data());
   return true;
@@ -78,7 +83,7 @@ PetscErrorCode NetworkPc::Impl::apply(PC pc, Vec b, Vec x) {
   PetscCall(VecGetArrayWrite(x, &to));
   if (!solve(from, to)) {
     // Some Krylov methods learn of a failure only by its norm.
-    std::fill_n(to, 3 * std::ptrdiff_t{blocks_.rows()}, std::numeric_limits<double>::infinity());
+    std::fill_n(to, blocks_.begin(blocks_.rows()), std::numeric_limits<double>::infinity());
     PetscCall(PCSetFailedReason(pc, PC_FACTOR_NUMERIC_ZEROPIVOT));
   }
   PetscCall(VecRestoreArrayWrite(x, &to));

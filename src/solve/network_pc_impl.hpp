@@ -11,6 +11,7 @@
 namespace cablenet::solve {
 
 /// Local blocks: the interior nodes, then the interface nodes at them (`kept_`, by their places in the interface).
+/// "Node" stands for a body as well.
 class NetworkPc::Impl {
 public:
   Impl(const partition::LocalNetwork& network, Mat matrix);
@@ -41,8 +42,11 @@ private:
   void add_to_interface(const double* b);
   bool solve(const double* b, double* x);
 
+  std::size_t interior_unknowns() const { return static_cast<std::size_t>(blocks_.begin(interior_)); }
+
   Mat matrix_;
   MPI_Comm communicator_;
+  partition::Blocks sizes_;   ///< of all ranks, by solver number
   MatrixBlocks blocks_;
   int interior_;
   std::vector<int> numbers_;             ///< of the interface nodes
@@ -60,11 +64,12 @@ private:
 
   struct OwnShare {
     elimination::BlockSource from;
-    std::size_t to;
+    InterfaceSystem::Place to;
   };
   struct LeftShare {
     const double* from;
-    std::size_t to;
+    std::size_t stride;
+    InterfaceSystem::Place to;
     bool transposed;
   };
   std::vector<int> own_places_;   ///< of this rank's interface nodes in numbers_

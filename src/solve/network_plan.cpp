@@ -25,12 +25,13 @@ int new_tag(Mat matrix) {
 NetworkPc::Impl::Impl(const partition::LocalNetwork& network, Mat matrix)
     : matrix_(matrix),
       communicator_(PetscObjectComm(reinterpret_cast<PetscObject>(matrix))),
-      blocks_(matrix),
+      sizes_(network.blocks),
+      blocks_(matrix, sizes_),
       interior_(network.interior),
       numbers_(network.interface.number),
-      exchange_(communicator_, new_tag(matrix)) {
+      exchange_(communicator_, sizes_, new_tag(matrix)) {
   for (std::size_t i = 0; i < numbers_.size(); ++i) place_[numbers_[i]] = static_cast<int>(i);
-  symmetric_ = petsc::is_known_symmetric(matrix);
+  symmetric_ = petsc::is_known_symmetric(matrix) && sizes_.uniform();
 }
 
 elimination::Pattern NetworkPc::Impl::pattern() {
@@ -53,6 +54,8 @@ elimination::Pattern NetworkPc::Impl::pattern() {
     return interior_ + static_cast<int>(std::lower_bound(kept_.begin(), kept_.end(), place(column)) - kept_.begin());
   };
   elimination::Pattern pattern{std::vector<int>(at(interior_) + kept_.size(), 3), interior_, {0}, {}};
+  if (!sizes_.uniform())
+    for (std::size_t k = 0; k < pattern.size.size(); ++k) pattern.size[k] = sizes_.size(number(static_cast<int>(k)));
   for (int k = 0; k < interior_; ++k) {
     blocks_.for_each(k, [&](int column, const auto&) { pattern.adjacent.push_back(local(column)); });
     pattern.first.push_back(static_cast<int>(pattern.adjacent.size()));
@@ -64,7 +67,7 @@ elimination::Pattern NetworkPc::Impl::pattern() {
 int NetworkPc::Impl::owner(int number) const {
   const PetscInt* ranges = nullptr;
   check(MatGetOwnershipRanges(matrix_, &ranges));
-  return static_cast<int>(std::upper_bound(ranges, ranges + ranks() + 1, PetscInt{3 * number}) - ranges) - 1;
+  return static_cast<int>(std::upper_bound(ranges, ranges + ranks() + 1, PetscInt{sizes_.begin(number)}) - ranges) - 1;
 }
 
 /// Blocks (interface node, interior node) stand in the interface node's row, perhaps on another rank.
@@ -91,12 +94,12 @@ elimination::BlockSource NetworkPc::Impl::source(int row, int column) {
 }
 
 bool NetworkPc::Impl::plan(const partition::LocalNetwork& network, double most_per_node) {
-  const double nodes = std::max(1.0, static_cast<double>(network.free_nodes) / ranks());
+  const double nodes = std::max(1.0, static_cast<double>(sizes_.begin(sizes_.count())) / 3 / ranks());
   const bool listed = network.interface.graph.vertices() == static_cast<int>(numbers_.size());
   std::optional<elimination::Schedule> own, shared;
   if (listed) own = elimination::make_schedule(pattern(), symmetric_, most_per_node * nodes);
   if (own)
-    shared = elimination::make_schedule(InterfaceSystem::pattern(network.interface), symmetric_,
+    shared = elimination::make_schedule(InterfaceSystem::pattern(network.interface, sizes_), symmetric_,
                                         most_per_node * nodes - own->updates);
   updates_per_node_ = shared ? (own->updates + shared->updates) / nodes : std::numeric_limits<double>::infinity();
   MPI_Allreduce(MPI_IN_PLACE, &updates_per_node_, 1, MPI_DOUBLE, MPI_MAX, communicator_);
@@ -105,7 +108,7 @@ bool NetworkPc::Impl::plan(const partition::LocalNetwork& network, double most_p
   elimination_ =
       std::make_unique<elimination::Elimination>(std::move(*own), [this](int i, int j) { return source(i, j); });
   interface_ = std::make_unique<InterfaceSystem>(network.interface, std::move(*shared), communicator_);
-  kept_values_.resize(3 * kept_.size());
+  for (const int node : kept_) kept_values_.resize(kept_values_.size() + at(interface_->size(node)));
   find_shares();
   return true;
 }
@@ -116,14 +119,16 @@ void NetworkPc::Impl::find_shares() {
     own_places_.push_back(place_.at(blocks_.first() + row));
     blocks_.for_each(row, [&](int column, const elimination::BlockSource& from) {
       if (const auto found = place_.find(column); found != place_.end())
-        own_shares_.push_back({from, interface_->block(own_places_.back(), found->second)});
+        own_shares_.push_back({from, interface_->place(own_places_.back(), found->second)});
     });
   }
   for (const auto& block : elimination_->schedule().kept) {
     const int row = kept_[at(block.row - interior_)], column = kept_[at(block.column - interior_)];
-    left_shares_.push_back({elimination_->update(block), interface_->block(row, column), false});
+    const InterfaceSystem::Place place = interface_->place(row, column);
+    const double* const update = elimination_->update(block);
+    left_shares_.push_back({update, at(place.columns), place, false});
     if (symmetric_ && row != column)
-      left_shares_.push_back({elimination_->update(block), interface_->block(column, row), true});
+      left_shares_.push_back({update, at(place.columns), interface_->place(column, row), true});
   }
 }
 

@@ -8,7 +8,7 @@
 /// Exact solution of a network's linear systems by block elimination and substructuring: each rank eliminates its
 /// interior nodes from leaf to root, one Allreduce sums what is left on the interface between ranks, every rank solves
 /// that and goes back.  Costs O(nodes) for trees and networks with few loops.  Reads the assembled AIJ matrix.
-/// Tests: tests/parallel/network_pc_test.cpp
+/// Tests: tests/parallel/network_pc_test.cpp, mixed_blocks_test.cpp
 namespace cablenet::solve {
 
 /// What the last factorisation met, on all ranks together.
@@ -20,8 +20,9 @@ struct PivotReport {
 /// All member functions are collective.
 class NetworkPc {
 public:
-  /// @param matrix  AIJ in 3x3 blocks, numbered as `network`
-  /// @param most_per_node  block products that a factorisation may take, over a rank's share of the nodes
+  /// @param matrix  AIJ in the blocks of `network`, numbered as there
+  /// @param most_per_node  block products that a factorisation may take, over a rank's share of the nodes; larger
+  /// blocks count as so many nodes and products of 3x3 as there are unknowns and work
   /// @returns nothing where that is not enough
   static std::unique_ptr<NetworkPc> make(const partition::LocalNetwork& network, Mat matrix, double most_per_node);
   ~NetworkPc();
