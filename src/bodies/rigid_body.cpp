@@ -218,10 +218,15 @@ Stage evaluate(const Properties& body, const Start& start, const StepRule& rule,
   return result;
 }
 
-Vector3 conserving_end(const Properties& body, const Start& start, double dt, const Vector4& y1,
-                       const Vector3& torque) {
-  const Vector3 momentum = start.R * (body.inertia * start.w) + dt * torque;
-  return body.inertia.llt().solve(QuaternionRotation::matrix<double>(y1).transpose() * momentum);
+Vector3 end_by_turn(const Start& start, double dt, const Vector4& y1) {
+  const Vector4 middle = 0.5 * (start.y + y1), rate = (1 / dt) * (y1 - start.y);
+  return 2 * mean_turn<double>(dt, middle, rate).W - start.w;
+}
+
+Vector3 end_by_momentum(const Properties& body, const Start& start, double dt, const Vector4& y1) {
+  const Matrix3 R1 = QuaternionRotation::matrix<double>(y1);
+  const Vector3 impulse = 0.5 * dt * (start.R + R1) * body.torque;
+  return body.inertia.llt().solve(R1.transpose() * (start.R * (body.inertia * start.w) + impulse));
 }
 
 Vector3 torque_of(const Matrix3& lever, const Moments& moments) {

@@ -170,6 +170,9 @@ private:
       for (const std::size_t e : *group)
         touched.insert(network_.elements[e].node.begin(), network_.elements[e].node.end());
     for (const auto& link : links_) touched.insert(link.node[1]);
+    here_.has_euler_bodies = std::any_of(network_.bodies.begin(), network_.bodies.end(), [](const auto& body) {
+      return body.properties.rotation == bodies::Rotation::euler;
+    });
     for (const bool own : {true, false})
       for (std::size_t b = 0; b < network_.bodies.size(); ++b)
         if (const int node = local_of_[at(network_.bodies[b].node)]; node >= 0 && (node < here_.owned) == own)

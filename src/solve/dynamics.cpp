@@ -139,7 +139,9 @@ Verdict Dynamics::run(const Observers& observers) {
     }
     observers.step(schedule_.time(), last_step_, counts_);
     const bool exhausted = last_step_ < smallest_step * time_.step;
-    if (schedule_.at_output() || exhausted) observers.output(instant());
+    outside_body_ = assembler_.nearly_singular_body(x_);
+    if (schedule_.at_output() || exhausted || outside_body_ >= 0) observers.output(instant());
+    if (outside_body_ >= 0) return Verdict::failed;
     if (exhausted) {
       failure_ = fmt::format("Newton's method succeeds only with steps as short as {:.3g} s", last_step_);
       return Verdict::failed;
@@ -154,6 +156,8 @@ bool Dynamics::step(double dt) {
   check(VecCopy(v_, v0_));
   assembler_.begin_step(t, x_, v_);
   if (schedule_.at_output() || counts_.steps % steps_between_norms == 0) check(VecNorm(x_, NORM_INFINITY, &furthest_));
+  // Sines and cosines of small angles are rounded as those of large ones.
+  if (!assembler_.network().blocks.uniform()) furthest_ = std::max(furthest_, 1.0);
   check(TSSetTime(stepper_, t));
   check(TSSetTimeStep(stepper_, dt));
   attempts_ = 0;

@@ -98,8 +98,7 @@ void Assembler::begin_step(double t, Vec x, Vec v) {
     as_vector(here.v) = prescribed_[i].start.v;
   }
   access.finish_exchange();
-  bodies_->begin_step(access.data);
-  bodies_->place({t, 0, 0}, false, access.data, nullptr);
+  bodies_->begin_step(t, access.data);
   visit_law({}, [&](const auto& law) { record_starts(law, access); });
 }
 
@@ -174,15 +173,7 @@ bool Assembler::sweep_bodies(const Law& law, const Stage& stage, Access& access,
                                  return false;
                                }) &&
               in_domain;
-  for (std::size_t i = 0; i < network_.links.size(); ++i) {
-    const auto& [node, stiffness] = network_.links[i];
-    const Vector3 f = stiffness * difference(nodes.x(node[1]), nodes.x(node[0]));
-    add_attached_force(network_, nodes, node[0], -f);
-    add_attached_force(network_, nodes, node[1], f);
-    if constexpr (with_tangent)
-      blocks.write(node, request->matrix.link_slots()[i],
-                   {request->shift_x * stiffness * Matrix3::Identity(), Matrix3::Zero(), 0, 0});
-  }
+  add_links(network_, bodies_->link_starts(), conserves(stage) ? stage.alpha_f : 1, nodes, request, blocks);
   return in_domain;
 }
 

@@ -53,11 +53,16 @@ bodies::RotationState BodySet::rotation(std::size_t body, const NodeData& data) 
   return state;
 }
 
-void BodySet::begin_step(const NodeData& data) {
+void BodySet::begin_step(double t, const NodeData& data) {
   for (std::size_t b = 0; b < starts_.size(); ++b) {
     const bodies::RotationState state = rotation(b, data);
     starts_[b] = bodies::start_of(network_.bodies[b].properties, state.y, state.dy);
   }
+  place({t, 0, 0}, false, data, nullptr);
+  const AnyNodes nodes{data};
+  link_starts_.clear();
+  for (const auto& [node, stiffness] : network_.links)
+    link_starts_.push_back(difference(nodes.x(node[1]), nodes.x(node[0])));
 }
 
 bool BodySet::place(const Stage& stage, bool conserving, const NodeData& data, const bodies::Seeds* seeds) {
@@ -146,7 +151,7 @@ void BodySet::write_tangent(const NodeData& data, TangentMatrix& matrix) {
   matrix.close();
 }
 
-double BodySet::end_step(const Stage& stage, bool conserving, const NodeData& data, double* x, double* v) const {
+double BodySet::end_step(const Stage& stage, bool conserving, double* x, double* v) const {
   double work = 0;
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const partition::LocalBody& body = network_.bodies[b];
@@ -156,9 +161,8 @@ double BodySet::end_step(const Stage& stage, bool conserving, const NodeData& da
     std::copy_n(v + place, n, state.dy.data());
     Vector3 w = bodies::angular_velocity(body.properties.rotation, state);
     if (conserving && body.properties.rotation == bodies::Rotation::quaternion) {
-      const bodies::StageMaps& maps = stages_[b].at;
-      const Vector3 torque = maps.place * body.properties.torque - bodies::torque_of(maps.lever, sums(b, data).moments);
-      w = bodies::conserving_end(body.properties, starts_[b], stage.dt, state.y, torque);
+      w = body.carried == 0 ? bodies::end_by_momentum(body.properties, starts_[b], stage.dt, state.y)
+                            : bodies::end_by_turn(starts_[b], stage.dt, state.y);
       const Quaternion attitude = bodies::attitude(body.properties, state.y);
       state = bodies::rotation_state(body.properties.rotation, attitude, w);
       std::copy_n(state.y.data(), n, x + place);

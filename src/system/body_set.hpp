@@ -27,8 +27,10 @@ public:
 
   bool empty() const { return network_.bodies.empty(); }
 
-  /// Keeps the step's start.
-  void begin_step(const NodeData& data);
+  /// Keeps the step's start, where it places the carried nodes.
+  void begin_step(double t, const NodeData& data);
+  /// Gaps of the links there [m].
+  const std::vector<Vector3>& link_starts() const { return link_starts_; }
   /// Sets the carried nodes' motion at the stage and clears their forces.
   /// @param seeds  with them, also carried_tangent()
   /// @returns false where a body has left its domain: outside() says which
@@ -45,9 +47,9 @@ public:
   /// Likewise the bodies' own blocks.
   void write_tangent(const NodeData& data, TangentMatrix& matrix);
 
-  /// Ends the accepted step that was evaluated last: conserving ones set their own end velocities.
+  /// Ends an accepted step: conserving ones set their own end velocities.
   /// @returns the work of the constant torques [J]
-  double end_step(const Stage& stage, bool conserving, const NodeData& data, double* x, double* v) const;
+  double end_step(const Stage& stage, bool conserving, double* x, double* v) const;
   bodies::RotationState rotation(std::size_t body, const NodeData& data) const;
 
 private:
@@ -61,6 +63,7 @@ private:
 
   const partition::LocalNetwork& network_;
   std::vector<bodies::Start> starts_;
+  std::vector<Vector3> link_starts_;
   std::vector<bodies::Stage> stages_;
   std::vector<CarriedTangent> tangents_;
   std::vector<BodyBlock> blocks_;

@@ -11,6 +11,9 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 Eigen::Map<Vector3> as_vector(double* values) { return Eigen::Map<Vector3>(values); }
 
+/// cos(pitch) one degree from the vertical: before a step leaves the domain of Euler angles.
+constexpr double warning_cosine = 0.0175;
+
 }   // namespace
 
 void Assembler::start_prescribed(double t) {
@@ -53,16 +56,30 @@ void Assembler::add_work(const Stage& s) {
   previous_stage_t_ = stage_t;
 }
 
+int Assembler::nearly_singular_body(Vec x) const {
+  if (!network_.has_euler_bodies) return -1;
+  int found = -1;
+  const double* values = nullptr;
+  check(VecGetArrayRead(x, &values));
+  for (int b = 0; b < network_.own_bodies; ++b) {
+    const partition::LocalBody& body = network_.bodies[at(b)];
+    bodies::Vector4 y = bodies::Vector4::Zero();
+    std::copy_n(values + network_.begin[at(body.node)] + 3, bodies::rotation_unknowns(body.properties.rotation),
+                y.data());
+    if (bodies::distance_from_singular(body.properties.rotation, y) < warning_cosine) found = body.body;
+  }
+  check(VecRestoreArrayRead(x, &values));
+  MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_INT, MPI_MAX, communicator_);
+  return found;
+}
+
 void Assembler::end_step(const Stage& stage, Vec x, Vec v) {
   add_work(stage);
   if (network_.bodies.empty()) return;
   double *x_values = nullptr, *v_values = nullptr;
   check(VecGetArray(x, &x_values));
   check(VecGetArray(v, &v_values));
-  NodeData data{};
-  data.owned = network_.owned;
-  data.outside_r = outside_r_.data();
-  work_ += bodies_->end_step(stage, conserves(stage), data, x_values, v_values);
+  work_ += bodies_->end_step(stage, conserves(stage), x_values, v_values);
   check(VecRestoreArray(v, &v_values));
   check(VecRestoreArray(x, &x_values));
 }

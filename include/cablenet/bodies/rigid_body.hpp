@@ -86,10 +86,11 @@ struct Stage {
 /// @param seeds  none: values alone
 Stage evaluate(const Properties&, const Start&, const StepRule&, const RotationState& stage, const Seeds* seeds);
 
-/// w at the end of a conserving step by its momentum, I^-1 R1^T (R0 I w0 + dt torque): differences of attitudes have
-/// lost digits.
-/// @param torque  of all forces on the body, the constant one included, world frame [N m]
-Vector3 conserving_end(const Properties&, const Start&, double dt, const Vector4& y1, const Vector3& torque);
+/// w at the end of a conserving step by its kinematics: 2 W - w0, dt W being the turn from q0 to q1.
+Vector3 end_by_turn(const Start&, double dt, const Vector4& y1);
+/// The same by its dynamics where no forces act: I^-1 R1^T (R0 I w0 + dt (R0 + R1)/2 torque).  Differences of attitudes
+/// lose digits that this has, but it would take in what rounding does to stiff cables' forces.
+Vector3 end_by_momentum(const Properties&, const Start&, double dt, const Vector4& y1);
 
 /// Sum of F r^T over forces F at attachments r; all that the attitude's equations need of them.  [N m]
 using Moments = Matrix3;

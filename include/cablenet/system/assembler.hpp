@@ -12,8 +12,8 @@
 #include "cablenet/system/rules.hpp"
 #include "cablenet/system/tangent_matrix.hpp"
 
-/// Residual and tangent of M a + beta M v + f_int = loads on the distributed network.
-/// Tests: tests/parallel/assembler_test.cpp
+/// Residual and tangent of M a + beta M v + f_int = loads on the distributed network, its bodies included.
+/// Tests: tests/parallel/assembler_test.cpp, bodies_test.cpp
 namespace cablenet::system {
 
 using Vector = petsc::Handle<Vec, VecDestroy>;
@@ -31,7 +31,6 @@ public:
   MPI_Comm communicator() const { return communicator_; }
 
   Vector make_vector() const;
-  /// Preallocated for the network's 3x3 blocks.
   TangentMatrix make_tangent() const;
   /// The drawn positions [m] and velocities [m/s] at the start.
   void fill_initial(Vec x, Vec v) const;
@@ -50,8 +49,8 @@ public:
   void mass_matrix(Vec x, Vec v, TangentMatrix& mass);
   void force(double t, Vec x, Vec v, Vec force);
 
-  /// Ends the accepted step whose last residual this is: adds the work that moved points and torques did over it, and
-  /// gives bodies the end velocity that a conserving step has found.  Not collective.
+  /// Ends the accepted step whose last residual this is: adds the work of moved points and torques over it, and sets
+  /// the bodies' end velocities where it is a conserving one.  Not collective.
   void end_step(const Stage& stage, Vec x, Vec v);
 
   /// Brings an instant's positions, velocities and accelerations of all local nodes together for energies and probes.
@@ -59,12 +58,14 @@ public:
   /// This rank's part: kinetic, strain, gravity energy and external work since the start [J].  @pre observe
   Energies energies() const;
 
+  /// In Network::bodies: one on any rank whose Euler angles are singular within a degree of pitch; -1: none.
+  int nearly_singular_body(Vec x) const;
+
   /// From the drawn start.
   ForceScales force_scales();
   /// Scene number of the element that the last residual found without length on this rank; -1: none.  Not collective.
   int coincident_element() const { return coincident_; }
-  /// Index into Network::bodies of one that turned out of its domain then (near pitch 90 degrees with Euler angles, by
-  /// half a turn in a step with a quaternion); -1: none.  Not collective.
+  /// Likewise in Network::bodies of one at pitch 90 degrees, or that turned by half a turn within a step.
   int outside_body() const;
 
 private:

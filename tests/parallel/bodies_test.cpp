@@ -1,0 +1,164 @@
+#include <gtest/gtest.h>
+
+#include <ostream>
+
+#include "../support/networks.hpp"
+#include "cablenet/bodies/rigid_body.hpp"
+
+/// Bodies in the assembled residual: tangents against differences for every way in which an element ends on one.
+namespace cablenet::test {
+namespace {
+
+using scene::Scheme;
+
+/// First ends, second ends, both ends on two bodies and on one, one element and several, and a point mass.
+std::string scene_text(const std::string& extra, const std::string& rope) {
+  const std::string body = "mass: 3, inertia: [0.4, 0.5, 0.6, 0.05, -0.02, 0.03], " + extra;
+  return "points: {a: {position: [0, 0, 0], motion: {velocity: [0.3, 0, 0]}}, b: {position: [4, 1, -3], mass: 1}}\n"
+         "bodies:\n"
+         "  one: {" +
+         body +
+         "position: [2, 0, -1], orientation: {roll: 20, pitch: -30, yaw: 50}, angular_velocity: "
+         "[0.5, -0.7, 0.4], torque: [0.2, 0.1, -0.3], force: [0, 1, 0], attachments: {p: [0.3, 0.1, 0.2], q: [-0.2, "
+         "0.3, "
+         "0.1], r: [0.1, -0.3, -0.2], c: [0, 0, 0]}}\n"
+         "  two: {" +
+         body +
+         "position: [4, 0.5, -1.5], angular_velocity: [0.1, 0.2, -0.6], attachments: {p: [0.2, 0, "
+         "0.1], q: [0, 0.2, -0.3]}}\n"
+         "  bob: {mass: 2, position: [1, 1, -3], orientation: {pitch: 40}, attachments: {top: [0, 0, 0.4], middle: "
+         "[0, 0, 0]}}\n"
+         "cables:\n"
+         "  first: {type: " +
+         rope +
+         ", from: one.p, to: b, elements: 1}\n"
+         "  second: {type: " +
+         rope +
+         ", from: a, to: one.q, elements: 3}\n"
+         "  held: {type: " +
+         rope +
+         ", from: a, to: two.p, elements: 1}\n"
+         "  between: {type: " +
+         rope +
+         ", from: one.r, to: two.q, elements: 1}\n"
+         "  long: {type: " +
+         rope +
+         ", from: two.q, to: one.c, elements: 4}\n"
+         "  handle: {type: " +
+         rope +
+         ", from: one.p, to: one.q, elements: 1, length: 0.8}\n"
+         "  loop: {type: " +
+         rope +
+         ", from: two.q, to: two.p, elements: 2, length: 0.9}\n"
+         "  string: {type: " +
+         rope +
+         ", from: bob.top, to: one.r, elements: 1}\n"
+         "  hung: {type: " +
+         rope + ", from: b, to: bob.middle, elements: 2}\n";
+}
+
+struct Case {
+  std::string name, extra, rope;
+  Scheme scheme;
+  double radius, xi;
+  friend void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+};
+
+/// A stage near the drawn state: its vectors, by each unknown's place in the scene.
+struct Stages {
+  Stages(const System& system, const Case& c) : network(system.assembler.network()) {
+    stage = {0.1, 0.02, 1 / (1 + c.radius)};
+    const double alpha_m = (2 - c.radius) / (1 + c.radius), spread = 1 + alpha_m - stage.alpha_f;
+    const double gamma = 0.5 + alpha_m - stage.alpha_f, beta = 0.25 * spread * spread;
+    shift_v = gamma / (beta * stage.dt);
+    shift_a = alpha_m / (stage.alpha_f * beta * stage.dt * stage.dt);
+    x0 = system.assembler.make_vector();
+    v0 = system.assembler.make_vector();
+    system.assembler.fill_initial(x0, v0);
+    x = shifted(system, x0, 0.02, 100);
+    v = shifted(system, v0, 0.3, 200);
+    a = shifted(system, v0, 3, 300);
+    direction = shifted(system, v0, 1, 400);
+    petsc::check(VecAXPY(direction, -1, v0));
+  }
+
+  /// base + scale * noise, the same on any number of ranks.
+  system::Vector shifted(const System& system, Vec base, double scale, int seed) const {
+    system::Vector result = system.assembler.make_vector();
+    petsc::check(VecCopy(base, result));
+    double* array = nullptr;
+    petsc::check(VecGetArray(result, &array));
+    for (int i = 0; i < network.owned; ++i)
+      for (int k = network.begin[at(i)]; k < network.begin[at(i) + 1]; ++k)
+        array[k] += scale * noise(seed + 10 * network.scene_node[at(i)] + k - network.begin[at(i)]);
+    petsc::check(VecRestoreArray(result, &array));
+    return result;
+  }
+
+  const partition::LocalNetwork& network;
+  system::Stage stage{};
+  double shift_v = 0, shift_a = 0;
+  system::Vector x0, v0, x, v, a, direction;
+};
+
+system::Vector residual_at(System& system, const Stages& s, double step) {
+  const system::Vector x = system.assembler.make_vector(), v = system.assembler.make_vector();
+  const system::Vector a = system.assembler.make_vector();
+  system::Vector r = system.assembler.make_vector();
+  petsc::check(VecWAXPY(x, step, s.direction, s.x));
+  petsc::check(VecWAXPY(v, step * s.shift_v, s.direction, s.v));
+  petsc::check(VecWAXPY(a, step * s.shift_a, s.direction, s.a));
+  EXPECT_TRUE(system.assembler.residual(s.stage, x, v, a, r));
+  return r;
+}
+
+class BodyTangent : public testing::TestWithParam<Case> {};
+
+TEST_P(BodyTangent, IsTheResidualsDerivative) {
+  const Case& c = GetParam();
+  System system(network_of(scene_text(c.extra, c.rope)), {c.scheme, c.xi, elements::Tangent::exact}, PETSC_COMM_WORLD);
+  const Stages s(system, c);
+  system.assembler.begin_step(s.stage.t, s.x0, s.v0);
+  system::TangentMatrix tangent = system.assembler.make_tangent();
+  const system::Vector product = system.assembler.make_vector(), r = system.assembler.make_vector();
+  const double h = 1e-5;
+  const system::Vector plus = residual_at(system, s, h), minus = residual_at(system, s, -h);
+  petsc::check(VecAXPY(plus, -1, minus));
+  petsc::check(VecScale(plus, 1 / (2 * h)));
+  const system::TangentRequest request{tangent, s.shift_v, s.shift_a};
+  for (const bool together : {true, false}) {
+    if (together)
+      system.assembler.residual(s.stage, s.x, s.v, s.a, r, &request);
+    else
+      system.assembler.tangent(s.stage, s.x, s.v, s.a, request);
+    tangent.publish();
+    petsc::check(MatMult(tangent.matrix(), s.direction, product));
+    petsc::check(VecAXPY(product, -1, plus));
+    PetscReal error = 0, size = 0;
+    petsc::check(VecNorm(product, NORM_INFINITY, &error));
+    petsc::check(VecNorm(plus, NORM_INFINITY, &size));
+    EXPECT_LE(error, 3e-8 * size) << (together ? "with the residual" : "alone");
+  }
+}
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  const std::pair<std::string, std::string> ways[] = {
+      {"Quaternion", ""},
+      {"Euler", "rotation: euler, "},
+      {"LinkedQuaternion", "coupling: {rigid_link: {axial_stiffness: 3000}}, "},
+      {"LinkedEuler", "rotation: euler, coupling: {rigid_link: {axial_stiffness: 3000}}, "}};
+  for (const auto& [name, extra] : ways)
+    for (const std::string rope : {"rope", "damped", "slack"}) {
+      all.push_back({name + "EnergyMomentum_" + rope, extra, rope, Scheme::energy_momentum, 1, 0.05});
+      all.push_back({name + "GeneralizedAlpha_" + rope, extra, rope, Scheme::generalized_alpha, 0.7, 0});
+      all.push_back({name + "Plain_" + rope, extra, rope, Scheme::plain, 0.4, 0});
+    }
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BodyTangent, testing::ValuesIn(cases()),
+                         [](const auto& info) { return info.param.name; });
+
+}   // namespace
+}   // namespace cablenet::test

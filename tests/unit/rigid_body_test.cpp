@@ -1,0 +1,178 @@
+#include "cablenet/bodies/rigid_body.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cablenet/bodies/rotation.hpp"
+
+namespace cablenet::bodies {
+namespace {
+
+Properties body(Rotation rotation) {
+  Properties p;
+  p.rotation = rotation;
+  p.inertia << 0.4, -0.05, -0.03, -0.05, 0.5, 0.02, -0.03, 0.02, 0.6;
+  p.torque = Vector3(0.3, -0.2, 0.1);
+  return p;
+}
+
+const Quaternion tilted = Quaternion(0.7, 0.2, -0.4, 0.3).normalized();
+
+RotationState stage_of(Rotation rotation) {
+  RotationState s = rotation_state(rotation, tilted, Vector3(0.6, -0.3, 0.8));
+  const int n = rotation_unknowns(rotation);
+  for (int i = 0; i < n; ++i) {
+    s.y(i) += 0.01 * (i + 1);
+    s.ddy(i) = 0.7 - 0.5 * i;
+  }
+  return s;
+}
+
+StepRule rule_of(bool conserving) { return conserving ? StepRule{0.5, 0.02, true} : StepRule{0.6, 0.02, false}; }
+
+struct Way {
+  Rotation rotation;
+  bool conserving;
+};
+
+class RigidBodyMaps : public testing::TestWithParam<Way> {};
+
+double distance(const StageMaps& a, const StageMaps& b) {
+  return std::max({(a.place - b.place).cwiseAbs().maxCoeff(), (a.velocity - b.velocity).cwiseAbs().maxCoeff(),
+                   (a.acceleration - b.acceleration).cwiseAbs().maxCoeff(), (a.lever - b.lever).cwiseAbs().maxCoeff(),
+                   (a.turn - b.turn).cwiseAbs().maxCoeff(), (a.own - b.own).cwiseAbs().maxCoeff()});
+}
+
+TEST_P(RigidBodyMaps, DerivativesAreThoseOfTheValues) {
+  const auto [rotation, conserving] = GetParam();
+  const Properties p = body(rotation);
+  const RotationState begin = rotation_state(rotation, tilted, Vector3(0.5, -0.2, 0.9));
+  const Start start = start_of(p, begin.y, begin.dy);
+  const RotationState s = stage_of(rotation);
+  const Seeds seeds{1, 100, 2e4};
+  const Stage exact = evaluate(p, start, rule_of(conserving), s, &seeds);
+  const double h = 1e-6;
+  for (int k = 0; k < rotation_unknowns(rotation); ++k) {
+    const auto at = [&](double step) {
+      RotationState moved = s;
+      moved.y(k) += step * seeds.position;
+      moved.dy(k) += step * seeds.velocity;
+      moved.ddy(k) += step * seeds.acceleration;
+      return evaluate(p, start, rule_of(conserving), moved, nullptr).at;
+    };
+    const StageMaps plus = at(h), minus = at(-h);
+    const StageMaps& by = exact.by[static_cast<std::size_t>(k)];
+    const auto slope = [h](const auto& a, const auto& b) { return ((a - b) / (2 * h)).eval(); };
+    const StageMaps numeric{slope(plus.place, minus.place),
+                            slope(plus.velocity, minus.velocity),
+                            slope(plus.acceleration, minus.acceleration),
+                            slope(plus.lever, minus.lever),
+                            slope(plus.turn, minus.turn),
+                            slope(plus.own, minus.own)};
+    const double size = std::max(by.own.cwiseAbs().maxCoeff(), by.acceleration.cwiseAbs().maxCoeff());
+    EXPECT_LE(distance(numeric, by), 1e-6 * size) << "unknown " << k;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RigidBodyMaps,
+                         testing::Values(Way{Rotation::quaternion, false}, Way{Rotation::quaternion, true},
+                                         Way{Rotation::euler, false}));
+
+class RigidBodyRotation : public testing::TestWithParam<Rotation> {};
+
+TEST_P(RigidBodyRotation, StateHoldsAttitudeAndAngularVelocity) {
+  const Vector3 w(0.6, -0.3, 0.8);
+  const RotationState s = rotation_state(GetParam(), tilted, w);
+  const Properties p = body(GetParam());
+  EXPECT_LE(attitude(p, s.y).angularDistance(tilted), 1e-14);
+  EXPECT_LE((start_of(p, s.y, s.dy).R - tilted.toRotationMatrix()).norm(), 1e-14);
+  EXPECT_LE((angular_velocity(GetParam(), s) - w).norm(), 1e-14);
+}
+
+/// R' = R skew(w), and the acceleration of an attachment is the second derivative of its place.
+TEST_P(RigidBodyRotation, AttachmentsMoveAsTheAttitudeTurns) {
+  const Properties p = body(GetParam());
+  const RotationState s = stage_of(GetParam());
+  const double h = 1e-4;
+  const auto place = [&](double t) {
+    RotationState later = s;
+    later.y += t * s.dy + 0.5 * t * t * s.ddy;
+    return evaluate(p, {}, {}, later, nullptr).at.place;
+  };
+  const StageMaps now = evaluate(p, {}, {}, s, nullptr).at;
+  EXPECT_LE(((place(h) - place(-h)) / (2 * h) - now.velocity).norm(), 1e-7);
+  EXPECT_LE(((place(h) - 2 * now.place + place(-h)) / (h * h) - now.acceleration).norm(), 1e-6);
+  EXPECT_LE((now.place * now.place.transpose() - Matrix3::Identity()).norm(), 1e-14);
+}
+
+/// Euler's equations in the world frame: turn^T (R (I w' + w x I w - torque)), the quaternion's gauge apart.
+TEST_P(RigidBodyRotation, OwnForcesAreEulersEquations) {
+  const Properties p = body(GetParam());
+  const RotationState s = stage_of(GetParam());
+  const StageMaps now = evaluate(p, {}, {}, s, nullptr).at;
+  const Vector3 w = angular_velocity(GetParam(), s);
+  const Matrix3 R = now.place, spin = R.transpose() * now.acceleration;
+  const Vector3 dw(0.5 * (spin(2, 1) - spin(1, 2)), 0.5 * (spin(0, 2) - spin(2, 0)), 0.5 * (spin(1, 0) - spin(0, 1)));
+  const Vector3 torque = p.inertia * dw + w.cross(p.inertia * w) - p.torque;
+  Vector4 own = now.own - now.turn.transpose() * (R * torque);
+  if (GetParam() == Rotation::quaternion) own -= own.dot(s.y) / s.y.squaredNorm() * s.y;
+  EXPECT_LE(own.norm(), 1e-13);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RigidBodyRotation, testing::Values(Rotation::quaternion, Rotation::euler));
+
+/// A force at an attachment does the same work on the body as along the attachment's way, whatever the step.
+TEST(RigidBodyConserving, LeversDoTheWorkOfTheirForces) {
+  const Properties p = body(Rotation::quaternion);
+  const RotationState begin = rotation_state(Rotation::quaternion, tilted, Vector3(3, -2, 4));
+  const Start start = start_of(p, begin.y, begin.dy);
+  const double dt = 0.3;
+  const Vector3 turn = dt * Vector3(2.5, -1.5, 4.5);
+  const Quaternion end = tilted * Quaternion(Eigen::AngleAxisd(turn.norm(), turn.normalized()));
+  RotationState s;
+  s.y << end.w(), end.vec();
+  s.dy = (s.y - begin.y) / dt;
+  s.y = 0.5 * (s.y + begin.y);
+  const StageMaps maps = evaluate(p, start, {0.5, dt, true}, s, nullptr).at;
+  const Vector3 r(0.3, -0.7, 0.2), F(5, -3, 7);
+  const double along = F.dot(end * r - tilted * r);
+  const double turned = torque_of(maps.lever, F * r.transpose()).dot(tilted * turn);
+  EXPECT_NEAR(along, turned, 1e-13 * std::abs(along));
+  EXPECT_LE((maps.velocity * r * dt - (end * r - tilted * r)).norm(), 1e-14);
+}
+
+TEST(RigidBodyConserving, EndByTurnAndByMomentumAgreeWhereTheEquationsHold) {
+  Properties p = body(Rotation::quaternion);
+  p.inertia = 0.5 * Matrix3::Identity();
+  p.torque.setZero();
+  const Vector3 w(0.3, 0.5, -0.8);
+  const RotationState begin = rotation_state(Rotation::quaternion, tilted, w);
+  const Start start = start_of(p, begin.y, begin.dy);
+  const double dt = 0.4;
+  const Quaternion end = tilted * Quaternion(Eigen::AngleAxisd(dt * w.norm(), w.normalized()));
+  Vector4 y1;
+  y1 << end.w(), end.vec();
+  EXPECT_LE((end_by_turn(start, dt, y1) - w).norm(), 1e-14);
+  EXPECT_LE((end_by_momentum(p, start, dt, y1) - w).norm(), 1e-14);
+}
+
+TEST(RigidBody, TorqueOfSeveralForcesIsTheirSum) {
+  const Matrix3 lever = tilted.toRotationMatrix();
+  const Vector3 r1(1, 2, 3), F1(-2, 0.5, 1), r2(0.4, -1, 0.2), F2(3, 1, -2);
+  const Moments moments = F1 * r1.transpose() + F2 * r2.transpose();
+  const Vector3 expected = (lever * r1).cross(F1) + (lever * r2).cross(F2);
+  EXPECT_LE((torque_of(lever, moments) - expected).norm(), 1e-14);
+}
+
+TEST(RigidBody, OnlyEulerAnglesAreEverSingular) {
+  const Quaternion up(Eigen::AngleAxisd(EIGEN_PI / 2, Vector3::UnitY()));
+  const RotationState q = rotation_state(Rotation::quaternion, up, Vector3::Zero());
+  EXPECT_EQ(distance_from_singular(Rotation::quaternion, q.y), 1);
+  Vector4 y(0.3, EIGEN_PI / 2, 0.1, 0);
+  EXPECT_NEAR(distance_from_singular(Rotation::euler, y), 0, 1e-15);
+  EXPECT_EQ(distance_from_singular(Rotation::none, y), 1);
+}
+
+}   // namespace
+}   // namespace cablenet::bodies
