@@ -65,15 +65,15 @@ Maps<S, 4> conserving_maps(const Properties& body, const Start& start, double dt
   const Unknowns<S, 4> q1 = 2.0 * m.y - q0;
   const Mat3<S> R0 = start.R.cast<S>(), R1 = QuaternionRotation::matrix(q1);
   const MeanTurn<S> turn = mean_turn<S>(dt, m.y, m.dy);
-  const Vec3<S> w0 = start.w.cast<S>(), w1 = 2.0 * turn.W - w0;
+  const Vec3<S> w1 = 2.0 * turn.W - start.w.cast<S>();
   Maps<S, 4> maps;
   maps.place = 0.5 * (R0 + R1);
   maps.velocity = (1 / dt) * (R1 - R0);
-  maps.acceleration = (1 / dt) * (R1 * skew(w1) - R0 * skew(w0));
+  maps.acceleration = (1 / dt) * (times_skew(R1, w1) - (start.R * skew<double>(start.w)).cast<S>());
   maps.lever = turn.lever * maps.place;
   const S length = m.y.squaredNorm();
-  maps.turn = QuaternionRotation::matrix(m.y) * QuaternionRotation::rates(m.y);
-  const Vec3<S> momentum = R1 * (body.inertia.cast<S>() * w1) - (start.R * (body.inertia * start.w)).cast<S>();
+  maps.turn = QuaternionRotation::world_rates(m.y);
+  const Vec3<S> momentum = R1 * times(body.inertia, w1) - (start.R * (body.inertia * start.w)).cast<S>();
   const Vec3<S> torque = (1 / dt) * momentum - maps.place * body.torque.cast<S>();
   const S excess = 4 * body.inertia.trace() / 3 / (dt * dt) * (q1.squaredNorm() - 1.0);
   maps.own = maps.turn.transpose() * torque + (excess / length) * m.y;
@@ -104,13 +104,12 @@ Maps<S, Way::unknowns> stage_maps(const Properties& body, const Start& start, co
   const Matrix3 velocity0 = start.R * skew<double>(start.w);
   Maps<S, n> maps;
   maps.place = ((1 - rule.alpha_f) * start.R).template cast<S>() + rule.alpha_f * R1;
-  maps.velocity = ((1 - rule.alpha_f) * velocity0).template cast<S>() + rule.alpha_f * (R1 * skew(w1));
-  const Mat3<S> spin = skew(t.w);
-  maps.acceleration = t.R * (skew(t.dw) + spin * spin);
+  maps.velocity = ((1 - rule.alpha_f) * velocity0).template cast<S>() + rule.alpha_f * times_skew(R1, w1);
+  const Mat3<S> swept = times_skew(t.R, t.w);
+  maps.acceleration = times_skew(t.R, t.dw) + times_skew(swept, t.w);
   maps.lever = t.R;
   maps.turn = t.R * t.rates;
-  const Mat3<S> I = body.inertia.cast<S>();
-  const Vec3<S> torque = I * t.dw + cross<S>(t.w, I * t.w) - body.torque.cast<S>();
+  const Vec3<S> torque = times(body.inertia, t.dw) + cross<S>(t.w, times(body.inertia, t.w)) - body.torque.cast<S>();
   maps.own = t.rates.transpose() * torque;
   add_gauge(body, rule.dt, m, maps.own);
   return maps;
@@ -138,8 +137,8 @@ void copy(const Maps<S, n>& from, StageMaps& to, Read&& read) {
 }
 
 template <class Way>
-void evaluate_with(const Properties& body, const Start& start, const StepRule& rule, const RotationState& stage,
-                   const Seeds* seeds, Stage& result) {
+[[gnu::flatten]] void evaluate_with(const Properties& body, const Start& start, const StepRule& rule,
+                                    const RotationState& stage, const Seeds* seeds, Stage& result) {
   constexpr int n = Way::unknowns;
   if (seeds == nullptr) {
     const Motion<double, n> m{stage.y.head<n>(), stage.dy.head<n>(), stage.ddy.head<n>()};
@@ -206,16 +205,14 @@ Start start_of(const Properties& body, const Vector4& y, const Vector4& dy) {
   return start;
 }
 
-Stage evaluate(const Properties& body, const Start& start, const StepRule& rule, const RotationState& stage,
-               const Seeds* seeds) {
-  Stage result;
+void evaluate(const Properties& body, const Start& start, const StepRule& rule, const RotationState& stage,
+              const Seeds* seeds, Stage& result) {
   if (body.rotation == Rotation::quaternion)
     evaluate_with<QuaternionRotation>(body, start, rule, stage, seeds, result);
   else if (body.rotation == Rotation::euler)
     evaluate_with<EulerRotation>(body, start, rule, stage, seeds, result);
   else
     result.at = {body.attitude, Matrix3::Zero(), Matrix3::Zero(), Matrix3::Zero(), Matrix34::Zero(), Vector4::Zero()};
-  return result;
 }
 
 Vector3 end_by_turn(const Start& start, double dt, const Vector4& y1) {

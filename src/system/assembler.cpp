@@ -29,7 +29,7 @@ Assembler::Assembler(partition::LocalNetwork network, ForceRule rule, MPI_Comm c
       is_elastic_(std::all_of(network_.materials.begin(), network_.materials.end(), elements::is_elastic)),
       ghosts_(network_, communicator),
       starts_(std::make_unique<Starts>()),
-      bodies_(std::make_unique<BodySet>(network_)) {
+      bodies_(std::make_unique<BodySet>(network_, !is_elastic_)) {
   petsc::register_phases();
   outside_.resize(at(network_.nodes - network_.owned));
   outside_r_.resize(3 * outside_.size());

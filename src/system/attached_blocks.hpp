@@ -10,6 +10,7 @@ struct AttachedTangent {
   Matrix3 k_x, k_v;      ///< [N/m], [N s/m]
   double mass;           ///< of the consistent matrix mass [[2, 1], [1, 2]] [kg]
   double mass_damping;   ///< [1/s]
+  bool is_damped;        ///< k_v or mass_damping is not zero
 };
 
 /// Writes an attached element's four blocks, each L_i^T (k_x dx_j + k_v dv_j + m da_j), where an end's motion by its
@@ -25,41 +26,47 @@ public:
   }
 
 private:
-  int size(int node) const {
-    if (!network_.is_carried(node)) return 3;
-    const int body = network_.carried_at(node).body;
-    return 3 + bodies::rotation_unknowns(network_.bodies[static_cast<std::size_t>(body)].properties.rotation);
+  /// A carried node's part of the tangent; nullptr for other nodes.
+  const CarriedTangent* carried(int node) const {
+    return network_.is_carried(node) ? &bodies_.carried_tangent(node) : nullptr;
   }
-  bool share_body(int one, int other) const {
-    return network_.is_carried(one) && network_.is_carried(other) &&
-           network_.carried_at(one).body == network_.carried_at(other).body;
+  BodyBlock* shared_block(int one, int other) const {
+    if (!network_.is_carried(one) || !network_.is_carried(other)) return nullptr;
+    return network_.carried_at(one).body == network_.carried_at(other).body ? bodies_.block_at(one) : nullptr;
   }
 
   void write_block(int row, int column, bool diagonal, const TangentMatrix::Slot& slot,
                    const AttachedTangent& t) const {
-    BodyBlock* const own = share_body(row, column) ? bodies_.block_at(row) : nullptr;
+    BodyBlock* const own = shared_block(row, column);
     if (slot.absent && own == nullptr) return;
     const double sign = diagonal ? 1 : -1, m = (diagonal ? 2 : 1) * t.mass;
-    Eigen::Matrix<double, 3, 7> by = Eigen::Matrix<double, 3, 7>::Zero();
-    by.leftCols<3>() = sign * (t.k_x + target_.shift_v * t.k_v);
-    by.leftCols<3>().diagonal().array() += m * (target_.shift_a + t.mass_damping * target_.shift_v);
-    if (network_.is_carried(column)) {
-      const CarriedTangent& c = bodies_.carried_tangent(column);
-      by.rightCols<4>() = sign * (t.k_x * c.x + t.k_v * c.v) + m * (c.a + t.mass_damping * c.v);
-    }
-    BodyBlock block = BodyBlock::Zero();
-    block.topRows<3>() = by;
-    if (network_.is_carried(row)) block.bottomRows<4>() = bodies_.carried_tangent(row).load.transpose() * by;
-    if (own != nullptr)
-      *own += block;
-    else
-      put(slot, block, size(row), size(column));
+    const CarriedTangent *const rows = carried(row), *const columns = carried(column);
+    Matrix3 by_position = sign * (t.k_x + target_.shift_v * t.k_v);
+    by_position.diagonal().array() += m * (target_.shift_a + t.mass_damping * target_.shift_v);
+    const auto put = [&](int first, int width, const auto& part) {
+      add(own, slot, {0, first, 3, width}, part);
+      if (rows != nullptr) add(own, slot, {3, first, rows->unknowns, width}, (rows->load.transpose() * part).eval());
+    };
+    put(0, 3, by_position);
+    if (columns == nullptr) return;
+    bodies::Matrix34 by_attitude = m * columns->a + sign * (t.k_x * columns->x);
+    if (t.is_damped) by_attitude += (sign * t.k_v + m * t.mass_damping * Matrix3::Identity()) * columns->v;
+    put(3, columns->unknowns, by_attitude);
   }
 
-  void put(const TangentMatrix::Slot& slot, const BodyBlock& block, int rows, int columns) const {
-    double* to = target_.values[slot.other] + slot.offset;
-    for (int r = 0; r < rows; ++r, to += slot.stride)
-      for (int c = 0; c < columns; ++c) to[c] = slot.add ? to[c] + block(r, c) : block(r, c);
+  struct Place {
+    int row, column, rows, columns;
+  };
+
+  template <class Part>
+  void add(BodyBlock* own, const TangentMatrix::Slot& slot, const Place& place, const Part& part) const {
+    if (own != nullptr) {
+      own->block<Part::RowsAtCompileTime, Part::ColsAtCompileTime>(place.row, place.column) += part;
+      return;
+    }
+    double* to = target_.values[slot.other] + slot.offset + place.row * static_cast<int>(slot.stride) + place.column;
+    for (int r = 0; r < place.rows; ++r, to += slot.stride)
+      for (int c = 0; c < place.columns; ++c) to[c] = slot.add ? to[c] + part(r, c) : part(r, c);
   }
 
   const partition::LocalNetwork& network_;

@@ -56,7 +56,7 @@ inline void add_links(const partition::LocalNetwork& network, const std::vector<
     add_attached_force(network, nodes, node[1], stiffness * gap);
     if (request == nullptr) continue;
     const double slope = request->shift_x * stiffness / alpha_f;
-    blocks.write(node, request->matrix.link_slots()[i], {slope * Matrix3::Identity(), Matrix3::Zero(), 0, 0});
+    blocks.write(node, request->matrix.link_slots()[i], {slope * Matrix3::Identity(), Matrix3::Zero(), 0, 0, false});
   }
 }
 

@@ -25,22 +25,28 @@ bool is_in_domain(const bodies::Properties& body, const bodies::Start& start, co
   return bodies::distance_from_singular(body.rotation, rule.dt > 0 ? end : y) > least_cosine && y.allFinite();
 }
 
-/// Columns: derivatives of map r by the attitude's unknowns.
-bodies::Matrix34 columns(const std::array<bodies::StageMaps, 4>& by, int unknowns, Matrix3 bodies::StageMaps::*map,
-                         const Vector3& r) {
-  bodies::Matrix34 result = bodies::Matrix34::Zero();
-  for (int k = 0; k < unknowns; ++k) result.col(k) = by[at(k)].*map * r;
-  return result;
+/// How a carried node's motion follows the attitude.
+void differentiate(const bodies::Stage& stage, const Vector3& r, bool is_damped, CarriedTangent& tangent) {
+  for (int k = 0; k < tangent.unknowns; ++k) {
+    const bodies::StageMaps& by = stage.by[at(k)];
+    tangent.x.col(k).noalias() = by.place * r;
+    tangent.a.col(k).noalias() = by.acceleration * r;
+    if (is_damped) tangent.v.col(k).noalias() = by.velocity * r;
+  }
+  tangent.load = -bodies::skew<double>(stage.at.lever * r) * stage.at.turn;
 }
 
 }   // namespace
 
-BodySet::BodySet(const partition::LocalNetwork& network)
+BodySet::BodySet(const partition::LocalNetwork& network, bool is_damped)
     : network_(network),
+      is_damped_(is_damped),
       starts_(network.bodies.size()),
       stages_(network.bodies.size()),
       tangents_(network.carried.size()),
-      blocks_(at(network.own_bodies), BodyBlock::Zero()) {}
+      blocks_(at(network.own_bodies), BodyBlock::Zero()) {
+  for (std::size_t k = 0; k < tangents_.size(); ++k) tangents_[k].unknowns = unknowns(at(network.carried[k].body));
+}
 
 bodies::RotationState BodySet::rotation(std::size_t body, const NodeData& data) const {
   const int node = network_.bodies[body].node;
@@ -75,7 +81,7 @@ bool BodySet::place(const Stage& stage, bool conserving, const NodeData& data, c
     const bodies::RotationState state = rotation(b, data);
     if (!is_in_domain(body.properties, starts_[b], rule, state.y)) outside_ = static_cast<int>(b);
     const bool gets_tangent = seeds != nullptr && unknowns(b) > 0;
-    stages_[b] = bodies::evaluate(body.properties, starts_[b], rule, state, gets_tangent ? seeds : nullptr);
+    bodies::evaluate(body.properties, starts_[b], rule, state, gets_tangent ? seeds : nullptr, stages_[b]);
     const bodies::StageMaps& maps = stages_[b].at;
     for (int k = body.first_carried; k < body.first_carried + body.carried; ++k) {
       const auto& [node, index, r] = network_.carried[at(k)];
@@ -84,11 +90,7 @@ bool BodySet::place(const Stage& stage, bool conserving, const NodeData& data, c
       Map3(here.v) = Const3(nodes.v(body.node)) + maps.velocity * r;
       if (data.a != nullptr) Map3(here.a) = Const3(nodes.a(body.node)) + maps.acceleration * r;
       Map3(data.outside_r + 3 * std::ptrdiff_t{node - data.owned}).setZero();
-      if (seeds == nullptr) continue;
-      const auto column = [&](auto map) { return columns(stages_[b].by, unknowns(b), map, r); };
-      using bodies::StageMaps;
-      tangents_[at(k)] = {column(&StageMaps::place), column(&StageMaps::velocity), column(&StageMaps::acceleration),
-                          -bodies::skew<double>(maps.lever * r) * maps.turn};
+      if (seeds != nullptr) differentiate(stages_[b], r, is_damped_, tangents_[at(k)]);
     }
   }
   return outside_ < 0;

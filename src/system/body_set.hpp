@@ -12,8 +12,9 @@ namespace cablenet::system {
 /// How a carried node's motion follows its body's attitude, by its unknowns; zero columns where those are fewer than
 /// four.  The body's position comes on top as it is.
 struct CarriedTangent {
-  bodies::Matrix34 x, v, a;
-  bodies::Matrix34 load;   ///< a force F is the generalised force load^T F on the attitude
+  bodies::Matrix34 x = bodies::Matrix34::Zero(), v = x, a = x;
+  bodies::Matrix34 load = x;   ///< a force F is the generalised force load^T F on the attitude
+  int unknowns = 0;            ///< of the attitude
 };
 
 /// A body's block of the tangent while its parts are collected.
@@ -23,7 +24,8 @@ using BodyBlock = Eigen::Matrix<double, 7, 7>;
 /// leave forces on those, and the bodies collect them.
 class BodySet {
 public:
-  explicit BodySet(const partition::LocalNetwork& network);
+  /// @param is_damped  some cable's forces depend on velocities
+  BodySet(const partition::LocalNetwork& network, bool is_damped);
 
   bool empty() const { return network_.bodies.empty(); }
 
@@ -62,6 +64,7 @@ private:
   int unknowns(std::size_t body) const { return bodies::rotation_unknowns(network_.bodies[body].properties.rotation); }
 
   const partition::LocalNetwork& network_;
+  bool is_damped_;
   std::vector<bodies::Start> starts_;
   std::vector<Vector3> link_starts_;
   std::vector<bodies::Stage> stages_;

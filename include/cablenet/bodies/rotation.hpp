@@ -31,6 +31,26 @@ Mat3<S> skew(const Vec3<S>& r) {
   return m;
 }
 
+/// R skew(w).
+template <class S>
+Mat3<S> times_skew(const Mat3<S>& R, const Vec3<S>& w) {
+  Mat3<S> m;
+  for (int i = 0; i < 3; ++i) {
+    m(i, 0) = w(2) * R(i, 1) - w(1) * R(i, 2);
+    m(i, 1) = w(0) * R(i, 2) - w(2) * R(i, 0);
+    m(i, 2) = w(1) * R(i, 0) - w(0) * R(i, 1);
+  }
+  return m;
+}
+
+/// A v, for a matrix of plain numbers.
+template <class S>
+Vec3<S> times(const Matrix3& A, const Vec3<S>& v) {
+  Vec3<S> result;
+  for (int i = 0; i < 3; ++i) result(i) = A(i, 0) * v(0) + A(i, 1) * v(1) + A(i, 2) * v(2);
+  return result;
+}
+
 /// y = q = (w, x, y, z) of any length but zero: R is that of q/|q|.
 struct QuaternionRotation {
   static constexpr int unknowns = 4;
@@ -52,6 +72,14 @@ struct QuaternionRotation {
     E << -q(1), q(0), q(3), -q(2), -q(2), -q(3), q(0), q(1), -q(3), q(2), -q(1), q(0);
     const S s = 2.0 / q.squaredNorm();
     return s * E;
+  }
+  /// R rates: the angular velocity in the world's axes is that by q'.
+  template <class S>
+  static Eigen::Matrix<S, 3, 4> world_rates(const Unknowns<S, 4>& q) {
+    Eigen::Matrix<S, 3, 4> G;
+    G << -q(1), q(0), -q(3), q(2), -q(2), q(3), q(0), -q(1), -q(3), -q(2), q(1), q(0);
+    const S s = 2.0 / q.squaredNorm();
+    return s * G;
   }
   template <class S>
   static Turning<S, 4> turning(const Unknowns<S, 4>& q, const Unknowns<S, 4>& dq, const Unknowns<S, 4>& ddq) {
