@@ -190,12 +190,18 @@ private:
     report_.counts = dynamics_->counts();
     for (const auto& phase : {set_up_, solving_, writing_}) report_.phases.push_back(slowest(phase));
     write_report(directory_ / "run.yaml", scene_, network_, partition_, report_, PETSC_COMM_WORLD);
-    if (rank_ == 0) fmt::print("results in {}: open cables.xmf in ParaView\n", directory_.string());
+    if (rank_ == 0) fmt::print("results in {}: open {} in ParaView\n", directory_.string(), indexes());
     if (verdict != solve::Verdict::failed) return 0;
     if (rank_ == 0)
       fmt::print(stderr, "cablenet: error: {}. The state at that time is saved as the last frame in {}. {}\n",
                  report_.message, directory_.string(), advice());
     return 3;
+  }
+
+  /// What ParaView opens of this run.
+  std::string indexes() const {
+    if (network_.bodies.empty()) return "cables.xmf";
+    return network_.elements.empty() ? "bodies.xmf" : "cables.xmf and bodies.xmf";
   }
 
   bool is_singular_attitude() const {
