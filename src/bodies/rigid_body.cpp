@@ -1,10 +1,10 @@
 #include "cablenet/bodies/rigid_body.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <unsupported/Eigen/AutoDiff>
 
 #include "cablenet/bodies/rotation.hpp"
+#include "conserving.hpp"
 
 namespace cablenet::bodies {
 namespace {
@@ -27,57 +27,6 @@ constexpr double gauge_rate = 0.1;
 template <class S>
 Vec3<S> cross(const Vec3<S>& a, const Vec3<S>& b) {
   return {a(1) * b(2) - a(2) * b(1), a(2) * b(0) - a(0) * b(2), a(0) * b(1) - a(1) * b(0)};
-}
-
-/// 4 atan(x/4)/x by u = x^2; the series is exact to rounding where it is used.
-template <class S>
-S arc_by_tangent(const S& u) {
-  const S z = u / 16.0;
-  if (z < 0.01) {
-    S sum(0);
-    for (int k = 8; k >= 0; --k) sum = 1.0 / (2 * k + 1) - z * sum;
-    return sum;
-  }
-  using std::atan2, std::sqrt;
-  const S root = sqrt(z);
-  return atan2(root, S(1.0)) / root;
-}
-
-/// How a conserving step turns.
-template <class S>
-struct MeanTurn {
-  Vec3<S> W;   ///< R1 = R0 exp(dt W)
-  S lever;     ///< tan(dt |W|/2)/(dt |W|/2): on a lever (R0 + R1) r/2 a force then does the work that it does at r
-};
-
-/// The rate at the middle of q0 and q1 is 4 tan(dt |W|/4)/dt along W.
-template <class S>
-MeanTurn<S> mean_turn(double dt, const Unknowns<S, 4>& middle, const Unknowns<S, 4>& rate) {
-  const Vec3<S> w = QuaternionRotation::rates(middle) * rate;
-  const S u = dt * dt * w.squaredNorm();
-  const S arc = arc_by_tangent<S>(u);
-  return {arc * w, 1.0 / ((1.0 - u / 16.0) * arc)};
-}
-
-template <class S>
-Maps<S, 4> conserving_maps(const Properties& body, const Start& start, double dt, const Motion<S, 4>& m) {
-  const Unknowns<S, 4> q0 = start.y.cast<S>();
-  const Unknowns<S, 4> q1 = 2.0 * m.y - q0;
-  const Mat3<S> R0 = start.R.cast<S>(), R1 = QuaternionRotation::matrix(q1);
-  const MeanTurn<S> turn = mean_turn<S>(dt, m.y, m.dy);
-  const Vec3<S> w1 = 2.0 * turn.W - start.w.cast<S>();
-  Maps<S, 4> maps;
-  maps.place = 0.5 * (R0 + R1);
-  maps.velocity = (1 / dt) * (R1 - R0);
-  maps.acceleration = (1 / dt) * (times_skew(R1, w1) - (start.R * skew<double>(start.w)).cast<S>());
-  maps.lever = turn.lever * maps.place;
-  const S length = m.y.squaredNorm();
-  maps.turn = QuaternionRotation::world_rates(m.y);
-  const Vec3<S> momentum = R1 * times(body.inertia, w1) - (start.R * (body.inertia * start.w)).cast<S>();
-  const Vec3<S> torque = (1 / dt) * momentum - maps.place * body.torque.cast<S>();
-  const S excess = 4 * body.inertia.trace() / 3 / (dt * dt) * (q1.squaredNorm() - 1.0);
-  maps.own = maps.turn.transpose() * torque + (excess / length) * m.y;
-  return maps;
 }
 
 template <class S>
@@ -115,25 +64,42 @@ Maps<S, Way::unknowns> stage_maps(const Properties& body, const Start& start, co
   return maps;
 }
 
-template <class Way, class S>
-Maps<S, Way::unknowns> maps_of(const Properties& body, const Start& start, const StepRule& rule,
-                               const Motion<S, Way::unknowns>& m) {
-  if constexpr (Way::unknowns == 4)
-    if (rule.conserving) return conserving_maps(body, start, rule.dt, m);
-  return stage_maps<Way>(body, start, rule, m);
+double value_of(double number) { return number; }
+template <class Derivatives>
+double value_of(const Eigen::AutoDiffScalar<Derivatives>& number) {
+  return number.value();
 }
 
-/// Copies values, or derivatives by one unknown, as `read` takes them from a number.
-template <class S, int n, class Read>
-void copy(const Maps<S, n>& from, StageMaps& to, Read&& read) {
-  to.place = from.place.unaryExpr(read);
-  to.velocity = from.velocity.unaryExpr(read);
-  to.acceleration = from.acceleration.unaryExpr(read);
-  to.lever = from.lever.unaryExpr(read);
-  to.turn.setZero();
-  to.turn.template leftCols<n>() = from.turn.unaryExpr(read);
-  to.own.setZero();
-  to.own.template head<n>() = from.own.unaryExpr(read);
+template <class S, int n>
+void copy_values(const Maps<S, n>& from, StageMaps& to) {
+  const auto value = [](const S& number) { return value_of(number); };
+  to.place = from.place.unaryExpr(value);
+  to.velocity = from.velocity.unaryExpr(value);
+  to.acceleration = from.acceleration.unaryExpr(value);
+  to.lever = from.lever.unaryExpr(value);
+  to.turn.template leftCols<n>() = from.turn.unaryExpr(value);
+  to.own.template head<n>() = from.own.unaryExpr(value);
+  if constexpr (n < 4) to.turn.col(3).setZero(), to.own(3) = 0;
+}
+
+template <class S>
+void stack(const Mat3<S>& from, int unknowns, Stacked& to) {
+  for (int j = 0; j < 3; ++j)
+    for (int k = 0; k < unknowns; ++k)
+      for (int i = 0; i < 3; ++i) to(3 * k + i, j) = from(i, j).derivatives()(k);
+}
+
+template <class S, int n>
+void copy_derivatives(const Maps<S, n>& from, Stage& to) {
+  stack(from.place, n, to.place);
+  stack(from.velocity, n, to.velocity);
+  stack(from.acceleration, n, to.acceleration);
+  stack(from.lever, n, to.lever);
+  for (int k = 0; k < n; ++k) {
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < 3; ++i) to.turn[static_cast<std::size_t>(k)](i, j) = from.turn(i, j).derivatives()(k);
+    for (int i = 0; i < n; ++i) to.own(i, k) = from.own(i).derivatives()(k);
+  }
 }
 
 template <class Way>
@@ -142,7 +108,7 @@ template <class Way>
   constexpr int n = Way::unknowns;
   if (seeds == nullptr) {
     const Motion<double, n> m{stage.y.head<n>(), stage.dy.head<n>(), stage.ddy.head<n>()};
-    return copy(maps_of<Way, double>(body, start, rule, m), result.at, [](double value) { return value; });
+    return copy_values(stage_maps<Way, double>(body, start, rule, m), result.at);
   }
   using Number = Eigen::AutoDiffScalar<Unknowns<double, n>>;
   Motion<Number, n> m;
@@ -151,10 +117,9 @@ template <class Way>
     m.dy(i) = Number(stage.dy(i), seeds->velocity * Unknowns<double, n>::Unit(i));
     m.ddy(i) = Number(stage.ddy(i), seeds->acceleration * Unknowns<double, n>::Unit(i));
   }
-  const Maps<Number, n> maps = maps_of<Way, Number>(body, start, rule, m);
-  copy(maps, result.at, [](const Number& number) { return number.value(); });
-  for (std::size_t k = 0; k < n; ++k)
-    copy(maps, result.by[k], [k](const Number& number) { return number.derivatives()(static_cast<Eigen::Index>(k)); });
+  const Maps<Number, n> maps = stage_maps<Way, Number>(body, start, rule, m);
+  copy_values(maps, result.at);
+  copy_derivatives(maps, result);
 }
 
 }   // namespace
@@ -207,23 +172,14 @@ Start start_of(const Properties& body, const Vector4& y, const Vector4& dy) {
 
 void evaluate(const Properties& body, const Start& start, const StepRule& rule, const RotationState& stage,
               const Seeds* seeds, Stage& result) {
-  if (body.rotation == Rotation::quaternion)
+  if (rule.conserving)
+    evaluate_conserving(body, start, rule.dt, stage, seeds, result);
+  else if (body.rotation == Rotation::quaternion)
     evaluate_with<QuaternionRotation>(body, start, rule, stage, seeds, result);
   else if (body.rotation == Rotation::euler)
     evaluate_with<EulerRotation>(body, start, rule, stage, seeds, result);
   else
     result.at = {body.attitude, Matrix3::Zero(), Matrix3::Zero(), Matrix3::Zero(), Matrix34::Zero(), Vector4::Zero()};
-}
-
-Vector3 end_by_turn(const Start& start, double dt, const Vector4& y1) {
-  const Vector4 middle = 0.5 * (start.y + y1), rate = (1 / dt) * (y1 - start.y);
-  return 2 * mean_turn<double>(dt, middle, rate).W - start.w;
-}
-
-Vector3 end_by_momentum(const Properties& body, const Start& start, double dt, const Vector4& y1) {
-  const Matrix3 R1 = QuaternionRotation::matrix<double>(y1);
-  const Vector3 impulse = 0.5 * dt * (start.R + R1) * body.torque;
-  return body.inertia.llt().solve(R1.transpose() * (start.R * (body.inertia * start.w) + impulse));
 }
 
 Vector3 torque_of(const Matrix3& lever, const Moments& moments) {

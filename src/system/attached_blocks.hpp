@@ -59,14 +59,28 @@ private:
   };
 
   template <class Part>
+  [[gnu::always_inline]] static void put(double* to, const TangentMatrix::Slot& slot, const Part& part, int rows,
+                                         int columns) {
+    for (int r = 0; r < rows; ++r, to += slot.stride) {
+      if (slot.add)
+        for (int c = 0; c < columns; ++c) to[c] += part(r, c);
+      else
+        for (int c = 0; c < columns; ++c) to[c] = part(r, c);
+    }
+  }
+
+  template <class Part>
   void add(BodyBlock* own, const TangentMatrix::Slot& slot, const Place& place, const Part& part) const {
     if (own != nullptr) {
       own->block<Part::RowsAtCompileTime, Part::ColsAtCompileTime>(place.row, place.column) += part;
       return;
     }
     double* to = target_.values[slot.other] + slot.offset + place.row * static_cast<int>(slot.stride) + place.column;
-    for (int r = 0; r < place.rows; ++r, to += slot.stride)
-      for (int c = 0; c < place.columns; ++c) to[c] = slot.add ? to[c] + part(r, c) : part(r, c);
+    constexpr int rows = Part::RowsAtCompileTime, columns = Part::ColsAtCompileTime;
+    if (place.rows == rows && place.columns == columns)
+      put(to, slot, part, rows, columns);
+    else
+      put(to, slot, part, place.rows, place.columns);
   }
 
   const partition::LocalNetwork& network_;

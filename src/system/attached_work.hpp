@@ -20,7 +20,7 @@ struct AttachedWork {
   const TangentTarget& target;
   AttachedBlocks blocks;
 
-  bool operator()(std::size_t i, const partition::LocalElement& e) const {
+  [[gnu::flatten]] bool operator()(std::size_t i, const partition::LocalElement& e) const {
     const elements::CableMaterial& material = network.materials[static_cast<std::size_t>(e.material)];
     const auto [n1, n2] = e.node;
     ElementStage stage{material, e.length, difference(nodes.x(n2), nodes.x(n1)), Vector3::Zero(), 0};

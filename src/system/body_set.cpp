@@ -27,13 +27,15 @@ bool is_in_domain(const bodies::Properties& body, const bodies::Start& start, co
 
 /// How a carried node's motion follows the attitude.
 void differentiate(const bodies::Stage& stage, const Vector3& r, bool is_damped, CarriedTangent& tangent) {
-  for (int k = 0; k < tangent.unknowns; ++k) {
-    const bodies::StageMaps& by = stage.by[at(k)];
-    tangent.x.col(k).noalias() = by.place * r;
-    tangent.a.col(k).noalias() = by.acceleration * r;
-    if (is_damped) tangent.v.col(k).noalias() = by.velocity * r;
-  }
-  tangent.load = -bodies::skew<double>(stage.at.lever * r) * stage.at.turn;
+  using Columns = Eigen::Map<Eigen::Matrix<double, 12, 1>>;
+  const auto fill = [&r](const bodies::Stacked& by, bodies::Matrix34& columns) {
+    Columns(columns.data()).noalias() = by.lazyProduct(r);
+  };
+  fill(stage.place, tangent.x);
+  fill(stage.acceleration, tangent.a);
+  if (is_damped) fill(stage.velocity, tangent.v);
+  const Vector3 lever = stage.at.lever * r;
+  for (int k = 0; k < tangent.unknowns; ++k) tangent.load.col(k) = stage.at.turn.col(k).cross(lever);
 }
 
 }   // namespace
@@ -138,9 +140,9 @@ void BodySet::write_tangent(const NodeData& data, TangentMatrix& matrix) {
     const int n = unknowns(b);
     BodyBlock& block = blocks_[b];
     for (int k = 0; k < n; ++k) {
-      const bodies::StageMaps& by = stages_[b].by[at(k)];
-      block.col(3 + k).tail<4>() +=
-          by.own + by.turn.transpose() * torque + maps.turn.transpose() * bodies::torque_of(by.lever, sum.moments);
+      const Matrix3 lever = stages_[b].lever.block<3, 3>(3 * k, 0);
+      block.col(3 + k).tail<4>() += stages_[b].own.col(k) + stages_[b].turn[at(k)].transpose() * torque +
+                                    maps.turn.transpose() * bodies::torque_of(lever, sum.moments);
     }
     const TangentMatrix::Slot& slot = matrix.body_slots()[b];
     for (int i = 0; i < 3 + n; ++i)

@@ -69,7 +69,13 @@ TEST_P(RigidBodyMaps, DerivativesAreThoseOfTheValues) {
       return evaluated(p, start, rule_of(conserving), moved, nullptr).at;
     };
     const StageMaps plus = at(h), minus = at(-h);
-    const StageMaps& by = exact.by[static_cast<std::size_t>(k)];
+    const auto part = [k](const Stacked& stacked) -> Matrix3 { return stacked.block<3, 3>(3 * k, 0); };
+    const StageMaps by{part(exact.place),
+                       part(exact.velocity),
+                       part(exact.acceleration),
+                       part(exact.lever),
+                       exact.turn[static_cast<std::size_t>(k)],
+                       exact.own.col(k)};
     const auto slope = [h](const auto& a, const auto& b) { return ((a - b) / (2 * h)).eval(); };
     const StageMaps numeric{slope(plus.place, minus.place),
                             slope(plus.velocity, minus.velocity),

@@ -68,7 +68,7 @@ struct Seeds {
   double position, velocity, acceleration;
 };
 
-/// What a stage makes of the attitude, or its derivative by one of the unknowns.
+/// What a stage makes of the attitude.
 struct StageMaps {
   /// An attachment r moves as X_a + place r, X_a' + velocity r, X_a'' + acceleration r, where place and velocity lie
   /// between the step's two ends.
@@ -78,9 +78,15 @@ struct StageMaps {
   Vector4 own;     ///< inertia, gyroscopic and gauge forces on y less the constant torque's
 };
 
+/// A map's derivatives by the unknowns, one below the other: times r it is that of the map's r, (3, 4) column-major.
+using Stacked = Eigen::Matrix<double, 12, 3>;
+
 struct Stage {
   StageMaps at;
-  std::array<StageMaps, 4> by;   ///< derivatives by the unknowns, if asked for
+  /// Derivatives by the unknowns, if asked for.
+  Stacked place = Stacked::Zero(), velocity = place, acceleration = place, lever = place;
+  std::array<Matrix34, 4> turn{Matrix34::Zero(), Matrix34::Zero(), Matrix34::Zero(), Matrix34::Zero()};
+  Matrix4 own = Matrix4::Zero();   ///< of own's rows
 };
 
 /// @param seeds  none: values alone

@@ -1,0 +1,141 @@
+#include "conserving.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "cablenet/bodies/rotation.hpp"
+
+namespace cablenet::bodies {
+namespace {
+
+struct Slope {
+  double value, by;   ///< its derivative by u
+};
+
+/// 4 atan(x/4)/x by u = x^2; the series is exact to rounding where it is used.
+Slope arc_by_tangent(double u) {
+  const double z = u / 16;
+  if (z < 0.01) {
+    double sum = 0, slope = 0;
+    for (int k = 8; k >= 0; --k) {
+      slope = -sum - z * slope;
+      sum = 1.0 / (2 * k + 1) - z * sum;
+    }
+    return {sum, slope / 16};
+  }
+  const double root = std::sqrt(z), arc = std::atan(root) / root;
+  return {arc, (1 / (1 + z) - arc) / (2 * u)};
+}
+
+/// How a conserving step turns: the rate at the middle of q0 and q1 is w = 4 tan(dt |W|/4)/(dt |W|) W.
+struct MeanTurn {
+  Matrix34 rates;
+  Vector3 w;
+  double u;      ///< dt^2 |w|^2
+  Slope arc;     ///< W = arc w, R1 = R0 exp(dt W)
+  Slope lever;   ///< tan(dt |W|/2)/(dt |W|/2): on a lever (R0 + R1) r/2 a force then does the work that it does at r
+};
+
+MeanTurn mean_turn(double dt, const Vector4& middle, const Vector4& rate) {
+  MeanTurn turn;
+  turn.rates = QuaternionRotation::rates<double>(middle);
+  turn.w = turn.rates * rate;
+  turn.u = dt * dt * turn.w.squaredNorm();
+  turn.arc = arc_by_tangent(turn.u);
+  const double rest = 1 - turn.u / 16, lever = 1 / (rest * turn.arc.value);
+  turn.lever = {lever, lever * (1 / (16 * rest) - turn.arc.by / turn.arc.value)};
+  return turn;
+}
+
+/// |q|^2 d(R |q|^2)/dq_k / |q|^2 less what |q| changes: dR/dq_k.
+Matrix3 matrix_slope(const Vector4& q, const Matrix3& R, int k) {
+  const double w = q(0), x = q(1), y = q(2), z = q(3);
+  Matrix3 M;
+  if (k == 0) M << w, -z, y, z, w, -x, -y, x, w;
+  if (k == 1) M << x, y, z, y, -x, -w, z, w, -x;
+  if (k == 2) M << -y, x, w, x, y, z, -w, z, -y;
+  if (k == 3) M << -z, -w, x, w, -z, y, x, y, z;
+  return 2 / q.squaredNorm() * (M - q(k) * R);
+}
+
+/// G(e_k), of which world_rates is the sum over q_k times 2/|q|^2.
+Matrix34 world_unit(int k) {
+  Matrix34 G = Matrix34::Zero();
+  if (k == 0) G.rightCols<3>().setIdentity();
+  if (k == 1) G << -1, 0, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0;
+  if (k == 2) G << 0, 0, 0, 1, -1, 0, 0, 0, 0, -1, 0, 0;
+  if (k == 3) G << 0, 0, -1, 0, 0, 1, 0, 0, -1, 0, 0, 0;
+  return G;
+}
+
+/// What values and derivatives share.
+struct Values {
+  Vector4 q1;
+  Matrix3 R1;
+  MeanTurn turn;
+  Vector3 w1, momentum1, torque;   ///< momentum1: body axes; torque: what own is the turn's share of
+  double gauge, excess;            ///< gauge (|q1|^2 - 1) q_a/|q_a|^2 keeps |q1| at 1
+};
+
+Values evaluate_values(const Properties& body, const Start& start, double dt, const RotationState& stage,
+                       StageMaps& maps) {
+  Values v;
+  v.q1 = 2 * stage.y - start.y;
+  v.R1 = QuaternionRotation::matrix<double>(v.q1);
+  v.turn = mean_turn(dt, stage.y, stage.dy);
+  v.w1 = 2 * v.turn.arc.value * v.turn.w - start.w;
+  v.momentum1 = body.inertia * v.w1;
+  maps.place = 0.5 * (start.R + v.R1);
+  maps.velocity = (1 / dt) * (v.R1 - start.R);
+  maps.acceleration = (1 / dt) * (times_skew<double>(v.R1, v.w1) - times_skew<double>(start.R, start.w));
+  maps.lever = v.turn.lever.value * maps.place;
+  maps.turn = QuaternionRotation::world_rates<double>(stage.y);
+  v.torque = (1 / dt) * (v.R1 * v.momentum1 - start.R * (body.inertia * start.w)) - maps.place * body.torque;
+  v.gauge = 4 * body.inertia.trace() / 3 / (dt * dt);
+  v.excess = v.q1.squaredNorm() - 1;
+  maps.own = maps.turn.transpose() * v.torque + v.gauge * v.excess / stage.y.squaredNorm() * stage.y;
+  return v;
+}
+
+}   // namespace
+
+[[gnu::flatten]] void evaluate_conserving(const Properties& body, const Start& start, double dt,
+                                          const RotationState& stage, const Seeds* seeds, Stage& result) {
+  const Values v = evaluate_values(body, start, dt, stage, result.at);
+  if (seeds == nullptr) return;
+  const StageMaps& maps = result.at;
+  const double by_square = 1 / stage.y.squaredNorm();
+  // E(a) b = -E(b) a.
+  Matrix34 by_w = seeds->velocity * v.turn.rates - 2 * by_square * v.turn.w * stage.y.transpose();
+  by_w -= by_square * stage.dy.squaredNorm() * QuaternionRotation::rates<double>(stage.dy);
+  for (int k = 0; k < 4; ++k) {
+    const Vector3 dw = by_w.col(k);
+    const double du = 2 * dt * dt * v.turn.w.dot(dw);
+    const Vector3 dw1 = 2 * (v.turn.arc.value * dw + v.turn.arc.by * du * v.turn.w);
+    const Matrix3 dR = 2 * matrix_slope(v.q1, v.R1, k), dplace = 0.5 * dR;
+    result.place.block<3, 3>(3 * k, 0) = dplace;
+    result.velocity.block<3, 3>(3 * k, 0) = (1 / dt) * dR;
+    result.acceleration.block<3, 3>(3 * k, 0) =
+        (1 / dt) * (times_skew<double>(dR, v.w1) + times_skew<double>(v.R1, dw1));
+    result.lever.block<3, 3>(3 * k, 0) = v.turn.lever.by * du * maps.place + v.turn.lever.value * dplace;
+    Matrix34& dturn = result.turn[static_cast<std::size_t>(k)];
+    dturn = 2 * by_square * (world_unit(k) - stage.y(k) * maps.turn);
+    const Vector3 dtorque = (1 / dt) * (dR * v.momentum1 + v.R1 * (body.inertia * dw1)) - dplace * body.torque;
+    Vector4 dgauge = 4 * v.q1(k) * stage.y - 2 * v.excess * stage.y(k) * by_square * stage.y;
+    dgauge(k) += v.excess;
+    result.own.col(k) = dturn.transpose() * v.torque + maps.turn.transpose() * dtorque + v.gauge * by_square * dgauge;
+  }
+}
+
+Vector3 end_by_turn(const Start& start, double dt, const Vector4& y1) {
+  const MeanTurn turn = mean_turn(dt, 0.5 * (start.y + y1), (1 / dt) * (y1 - start.y));
+  return 2 * turn.arc.value * turn.w - start.w;
+}
+
+Vector3 end_by_momentum(const Properties& body, const Start& start, double dt, const Vector4& y1) {
+  const Matrix3 R1 = QuaternionRotation::matrix<double>(y1);
+  const Vector3 impulse = 0.5 * dt * (start.R + R1) * body.torque;
+  return body.inertia.llt().solve(R1.transpose() * (start.R * (body.inertia * start.w) + impulse));
+}
+
+}   // namespace cablenet::bodies
