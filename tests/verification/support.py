@@ -54,6 +54,14 @@ class Verification:
 
     def run(self, scene, *options):
         """Runs a scene, a dict as the file would have it; the program must succeed."""
+        run, done = self.attempt(scene, *options)
+        if done.returncode:
+            sys.exit(f"FAILED: exit status {done.returncode}: {' '.join(done.args)}\n{done.stderr}")
+        self.rejected += run.counted("rejected_steps")
+        return run
+
+    def attempt(self, scene, *options):
+        """Runs a scene that may not succeed. @return the run, None where there is no history, and the process"""
         self.runs += 1
         folder = self.scratch / str(self.runs)
         path = folder.with_suffix(".yaml")
@@ -61,12 +69,9 @@ class Verification:
         command = [self.program, "run", str(path), "-o", str(folder), *map(str, options)]
         started = time.monotonic()
         done = subprocess.run(command, cwd=self.scratch, capture_output=True, text=True)
-        if done.returncode:
-            sys.exit(f"FAILED: exit status {done.returncode}: {' '.join(command)}\n{done.stderr}")
-        run = Run(folder, time.monotonic() - started)
-        self.rejected += run.counted("rejected_steps")
-        shutil.rmtree(folder)
-        return run
+        run = Run(folder, time.monotonic() - started) if (folder / "history.csv").exists() else None
+        shutil.rmtree(folder, ignore_errors=True)
+        return run, done
 
     def _note(self, good, text):
         self.checked += 1
@@ -85,6 +90,12 @@ class Verification:
         """|value - expected| must be at most `tolerance`."""
         self._note(bool(abs(value - expected) <= tolerance), f"{name}: {value:.12g}, expected {expected:.12g}, "
                    f"difference {value - expected:.2g} (at most {tolerance:.2g})")
+
+    def says(self, name, text, *words):
+        """Every one of the words must be in the text."""
+        missing = [word for word in words if word not in text]
+        found = f"no {missing} in: {text.strip()}" if missing else f"says {list(words)}"
+        self._note(not missing, f"{name}: {found}")
 
     def finish(self):
         seconds = time.monotonic() - self.started
@@ -105,6 +116,16 @@ def scene(cable_type, points, cables, end, step, interval, history, gravity=9.81
         "cables": {name: {"type": "rope", **keys} for name, keys in cables.items()},
         "time": {"end": end, "step": step, **time_keys},
         "output": {"interval": interval, "history": history, "energy": energy},
+    }
+
+
+def body_scene(bodies, end, step, interval, gravity=0, **time_keys):
+    """Bodies that no cable holds, all in the history."""
+    return {
+        "environment": {"gravity": gravity},
+        "bodies": bodies,
+        "time": {"end": end, "step": step, **time_keys},
+        "output": {"interval": interval, "history": list(bodies), "energy": True},
     }
 
 
