@@ -7,5 +7,6 @@ cablenet_script_test(verification_statements verification/statements.py 120 veri
 cablenet_script_test(verification_free_bodies verification/free_bodies.py 120 verification)
 cablenet_script_test(verification_pitch verification/pitch.py 120 verification)
 cablenet_script_test(verification_body_pendulum verification/body_pendulum.py 120 verification)
+cablenet_script_test(verification_rigid_links verification/rigid_links.py 120 verification)
 cablenet_script_test(verification_yardstick verification/yardstick.py 60 verification
   --yardstick $<TARGET_FILE:yardstick_chain>)
