@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <utility>
 
 #include "cablenet/bodies/rotation.hpp"
 
@@ -47,19 +48,23 @@ MeanTurn mean_turn(double dt, const Vector4& middle, const Vector4& rate) {
   return turn;
 }
 
-/// |q|^2 d(R |q|^2)/dq_k / |q|^2 less what |q| changes: dR/dq_k.
-Matrix3 matrix_slope(const Vector4& q, const Matrix3& R, int k) {
-  const double w = q(0), x = q(1), y = q(2), z = q(3);
+/// dR/dq_k / 2, of which the first part is that of |q|^2 R.
+/// @param by_square  2/|q|^2
+template <int k>
+Matrix3 half_slope(const Vector4& q, double by_square, const Matrix3& R) {
+  const double w = by_square * q(0), x = by_square * q(1), y = by_square * q(2), z = by_square * q(3);
+  const double own = by_square * q(k);
   Matrix3 M;
   if (k == 0) M << w, -z, y, z, w, -x, -y, x, w;
   if (k == 1) M << x, y, z, y, -x, -w, z, w, -x;
   if (k == 2) M << -y, x, w, x, y, z, -w, z, -y;
   if (k == 3) M << -z, -w, x, w, -z, y, x, y, z;
-  return 2 / q.squaredNorm() * (M - q(k) * R);
+  return 0.5 * (M - own * R);
 }
 
 /// G(e_k), of which world_rates is the sum over q_k times 2/|q|^2.
-Matrix34 world_unit(int k) {
+template <int k>
+Matrix34 world_unit() {
   Matrix34 G = Matrix34::Zero();
   if (k == 0) G.rightCols<3>().setIdentity();
   if (k == 1) G << -1, 0, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0;
@@ -78,53 +83,57 @@ struct Values {
 };
 
 Values evaluate_values(const Properties& body, const Start& start, double dt, const RotationState& stage,
-                       StageMaps& maps) {
+                       StageMotion& motion, StageForces& forces) {
   Values v;
   v.q1 = 2 * stage.y - start.y;
   v.R1 = QuaternionRotation::matrix<double>(v.q1);
   v.turn = mean_turn(dt, stage.y, stage.dy);
   v.w1 = 2 * v.turn.arc.value * v.turn.w - start.w;
   v.momentum1 = body.inertia * v.w1;
-  maps.place = 0.5 * (start.R + v.R1);
-  maps.velocity = (1 / dt) * (v.R1 - start.R);
-  maps.acceleration = (1 / dt) * (times_skew<double>(v.R1, v.w1) - times_skew<double>(start.R, start.w));
-  maps.lever = v.turn.lever.value * maps.place;
-  maps.turn = QuaternionRotation::world_rates<double>(stage.y);
-  v.torque = (1 / dt) * (v.R1 * v.momentum1 - start.R * (body.inertia * start.w)) - maps.place * body.torque;
+  motion.place = 0.5 * (start.R + v.R1);
+  motion.velocity = (1 / dt) * (v.R1 - start.R);
+  motion.acceleration = (1 / dt) * (times_skew<double>(v.R1, v.w1) - times_skew<double>(start.R, start.w));
+  forces.lever = v.turn.lever.value * motion.place;
+  forces.turn = QuaternionRotation::world_rates<double>(stage.y);
+  v.torque = (1 / dt) * (v.R1 * v.momentum1 - start.R * (body.inertia * start.w)) - motion.place * body.torque;
   v.gauge = 4 * body.inertia.trace() / 3 / (dt * dt);
   v.excess = v.q1.squaredNorm() - 1;
-  maps.own = maps.turn.transpose() * v.torque + v.gauge * v.excess / stage.y.squaredNorm() * stage.y;
+  forces.own = forces.turn.transpose() * v.torque + v.gauge * v.excess / stage.y.squaredNorm() * stage.y;
   return v;
 }
 
 }   // namespace
 
 [[gnu::flatten]] void evaluate_conserving(const Properties& body, const Start& start, double dt,
-                                          const RotationState& stage, const Seeds* seeds, Stage& result) {
-  const Values v = evaluate_values(body, start, dt, stage, result.at);
+                                          const RotationState& stage, const Seeds* seeds, StageMotion& motion,
+                                          StageForces& forces) {
+  const Values v = evaluate_values(body, start, dt, stage, motion, forces);
   if (seeds == nullptr) return;
-  const StageMaps& maps = result.at;
-  const double by_square = 1 / stage.y.squaredNorm();
+  const double by_square = 1 / stage.y.squaredNorm(), by_end_square = 2 / v.q1.squaredNorm();
   // E(a) b = -E(b) a.
   Matrix34 by_w = seeds->velocity * v.turn.rates - 2 * by_square * v.turn.w * stage.y.transpose();
   by_w -= by_square * stage.dy.squaredNorm() * QuaternionRotation::rates<double>(stage.dy);
-  for (int k = 0; k < 4; ++k) {
-    const Vector3 dw = by_w.col(k);
-    const double du = 2 * dt * dt * v.turn.w.dot(dw);
-    const Vector3 dw1 = 2 * (v.turn.arc.value * dw + v.turn.arc.by * du * v.turn.w);
-    const Matrix3 dR = 2 * matrix_slope(v.q1, v.R1, k), dplace = 0.5 * dR;
-    result.place.block<3, 3>(3 * k, 0) = dplace;
-    result.velocity.block<3, 3>(3 * k, 0) = (1 / dt) * dR;
-    result.acceleration.block<3, 3>(3 * k, 0) =
-        (1 / dt) * (times_skew<double>(dR, v.w1) + times_skew<double>(v.R1, dw1));
-    result.lever.block<3, 3>(3 * k, 0) = v.turn.lever.by * du * maps.place + v.turn.lever.value * dplace;
-    Matrix34& dturn = result.turn[static_cast<std::size_t>(k)];
-    dturn = 2 * by_square * (world_unit(k) - stage.y(k) * maps.turn);
-    const Vector3 dtorque = (1 / dt) * (dR * v.momentum1 + v.R1 * (body.inertia * dw1)) - dplace * body.torque;
-    Vector4 dgauge = 4 * v.q1(k) * stage.y - 2 * v.excess * stage.y(k) * by_square * stage.y;
-    dgauge(k) += v.excess;
-    result.own.col(k) = dturn.transpose() * v.torque + maps.turn.transpose() * dtorque + v.gauge * by_square * dgauge;
-  }
+  const Eigen::RowVector4d by_u = 2 * dt * dt * v.turn.w.transpose() * by_w;
+  const Matrix34 by_w1 = 2 / dt * (v.turn.arc.value * by_w + v.turn.arc.by * v.turn.w * by_u);
+  const Matrix34 by_momentum = (v.R1 * body.inertia) * by_w1;
+  // The end's attitude follows the stage's twice as fast.
+  const Vector3 w1 = 4 / dt * v.w1, swept = 4 / dt * v.momentum1 - 2 * body.torque;
+  const auto differentiate = [&]<int k>() {
+    const Matrix3 half = half_slope<k>(v.q1, by_end_square, v.R1);
+    motion.by_place.block<3, 3>(3 * k, 0) = 2 * half;
+    if (seeds->with_velocity) motion.by_velocity.block<3, 3>(3 * k, 0) = 4 / dt * half;
+    motion.by_acceleration.block<3, 3>(3 * k, 0) =
+        times_skew<double>(half, w1) + times_skew<double>(v.R1, by_w1.col(k));
+    forces.by_lever.block<3, 3>(3 * k, 0) = v.turn.lever.by * by_u(k) * motion.place + 2 * v.turn.lever.value * half;
+    Matrix34& by_turn = forces.by_turn[static_cast<std::size_t>(k)];
+    by_turn = 2 * by_square * (world_unit<k>() - stage.y(k) * forces.turn);
+    const Vector3 by_torque = half * swept + by_momentum.col(k);
+    forces.by_own.col(k) = by_turn.transpose() * v.torque + forces.turn.transpose() * by_torque +
+                           v.gauge * by_square * (4 * v.q1(k) - 2 * v.excess * by_square * stage.y(k)) * stage.y;
+    forces.by_own(k, k) += v.gauge * by_square * v.excess;
+  };
+  [&]<int... k>(std::integer_sequence<int, k...>) { (differentiate.template operator()<k>(), ...); }
+  (std::make_integer_sequence<int, 4>());
 }
 
 Vector3 end_by_turn(const Start& start, double dt, const Vector4& y1) {

@@ -6,6 +6,6 @@ namespace cablenet::bodies {
 /// evaluate() for a conserving step, differentiated by hand: it is what every step of energy_momentum does for every
 /// body.
 void evaluate_conserving(const Properties&, const Start&, double dt, const RotationState& stage, const Seeds* seeds,
-                         Stage& result);
+                         StageMotion& motion, StageForces& forces);
 
 }   // namespace cablenet::bodies

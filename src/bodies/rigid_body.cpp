@@ -71,15 +71,15 @@ double value_of(const Eigen::AutoDiffScalar<Derivatives>& number) {
 }
 
 template <class S, int n>
-void copy_values(const Maps<S, n>& from, StageMaps& to) {
+void copy_values(const Maps<S, n>& from, StageMotion& motion, StageForces& forces) {
   const auto value = [](const S& number) { return value_of(number); };
-  to.place = from.place.unaryExpr(value);
-  to.velocity = from.velocity.unaryExpr(value);
-  to.acceleration = from.acceleration.unaryExpr(value);
-  to.lever = from.lever.unaryExpr(value);
-  to.turn.template leftCols<n>() = from.turn.unaryExpr(value);
-  to.own.template head<n>() = from.own.unaryExpr(value);
-  if constexpr (n < 4) to.turn.col(3).setZero(), to.own(3) = 0;
+  motion.place = from.place.unaryExpr(value);
+  motion.velocity = from.velocity.unaryExpr(value);
+  motion.acceleration = from.acceleration.unaryExpr(value);
+  forces.lever = from.lever.unaryExpr(value);
+  forces.turn.template leftCols<n>() = from.turn.unaryExpr(value);
+  forces.own.template head<n>() = from.own.unaryExpr(value);
+  if constexpr (n < 4) forces.turn.col(3).setZero(), forces.own(3) = 0;
 }
 
 template <class S>
@@ -90,25 +90,26 @@ void stack(const Mat3<S>& from, int unknowns, Stacked& to) {
 }
 
 template <class S, int n>
-void copy_derivatives(const Maps<S, n>& from, Stage& to) {
-  stack(from.place, n, to.place);
-  stack(from.velocity, n, to.velocity);
-  stack(from.acceleration, n, to.acceleration);
-  stack(from.lever, n, to.lever);
+void copy_derivatives(const Maps<S, n>& from, StageMotion& motion, StageForces& forces) {
+  stack(from.place, n, motion.by_place);
+  stack(from.velocity, n, motion.by_velocity);
+  stack(from.acceleration, n, motion.by_acceleration);
+  stack(from.lever, n, forces.by_lever);
   for (int k = 0; k < n; ++k) {
     for (int j = 0; j < n; ++j)
-      for (int i = 0; i < 3; ++i) to.turn[static_cast<std::size_t>(k)](i, j) = from.turn(i, j).derivatives()(k);
-    for (int i = 0; i < n; ++i) to.own(i, k) = from.own(i).derivatives()(k);
+      for (int i = 0; i < 3; ++i) forces.by_turn[static_cast<std::size_t>(k)](i, j) = from.turn(i, j).derivatives()(k);
+    for (int i = 0; i < n; ++i) forces.by_own(i, k) = from.own(i).derivatives()(k);
   }
 }
 
 template <class Way>
 [[gnu::flatten]] void evaluate_with(const Properties& body, const Start& start, const StepRule& rule,
-                                    const RotationState& stage, const Seeds* seeds, Stage& result) {
+                                    const RotationState& stage, const Seeds* seeds, StageMotion& motion,
+                                    StageForces& forces) {
   constexpr int n = Way::unknowns;
   if (seeds == nullptr) {
     const Motion<double, n> m{stage.y.head<n>(), stage.dy.head<n>(), stage.ddy.head<n>()};
-    return copy_values(stage_maps<Way, double>(body, start, rule, m), result.at);
+    return copy_values(stage_maps<Way, double>(body, start, rule, m), motion, forces);
   }
   using Number = Eigen::AutoDiffScalar<Unknowns<double, n>>;
   Motion<Number, n> m;
@@ -118,8 +119,8 @@ template <class Way>
     m.ddy(i) = Number(stage.ddy(i), seeds->acceleration * Unknowns<double, n>::Unit(i));
   }
   const Maps<Number, n> maps = stage_maps<Way, Number>(body, start, rule, m);
-  copy_values(maps, result.at);
-  copy_derivatives(maps, result);
+  copy_values(maps, motion, forces);
+  copy_derivatives(maps, motion, forces);
 }
 
 }   // namespace
@@ -171,15 +172,21 @@ Start start_of(const Properties& body, const Vector4& y, const Vector4& dy) {
 }
 
 void evaluate(const Properties& body, const Start& start, const StepRule& rule, const RotationState& stage,
-              const Seeds* seeds, Stage& result) {
+              const Seeds* seeds, StageMotion& motion, StageForces& forces) {
   if (rule.conserving)
-    evaluate_conserving(body, start, rule.dt, stage, seeds, result);
+    evaluate_conserving(body, start, rule.dt, stage, seeds, motion, forces);
   else if (body.rotation == Rotation::quaternion)
-    evaluate_with<QuaternionRotation>(body, start, rule, stage, seeds, result);
+    evaluate_with<QuaternionRotation>(body, start, rule, stage, seeds, motion, forces);
   else if (body.rotation == Rotation::euler)
-    evaluate_with<EulerRotation>(body, start, rule, stage, seeds, result);
-  else
-    result.at = {body.attitude, Matrix3::Zero(), Matrix3::Zero(), Matrix3::Zero(), Matrix34::Zero(), Vector4::Zero()};
+    evaluate_with<EulerRotation>(body, start, rule, stage, seeds, motion, forces);
+  else {
+    motion.place = body.attitude;
+    motion.velocity.setZero();
+    motion.acceleration.setZero();
+    forces.lever.setZero();
+    forces.turn.setZero();
+    forces.own.setZero();
+  }
 }
 
 Vector3 torque_of(const Matrix3& lever, const Moments& moments) {

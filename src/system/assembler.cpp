@@ -98,7 +98,7 @@ void Assembler::begin_step(double t, Vec x, Vec v) {
     as_vector(here.v) = prescribed_[i].start.v;
   }
   access.finish_exchange();
-  bodies_->begin_step(t, access.data);
+  bodies_->begin_step(access.data);
   visit_law({}, [&](const auto& law) { record_starts(law, access); });
 }
 
@@ -160,7 +160,7 @@ bool Assembler::sweep_bodies(const Law& law, const Stage& stage, Access& access,
   bodies::Seeds seeds{};
   if constexpr (with_tangent) {
     target = {request->matrix.values(), request->matrix.element_slots().data(), request->shift_v, request->shift_a};
-    seeds = {request->shift_x, request->shift_v, request->shift_a};
+    seeds = {request->shift_x, request->shift_v, request->shift_a, !is_elastic_};
   }
   bool in_domain = bodies_->place(stage, conserves(stage), access.data, with_tangent ? &seeds : nullptr);
   const AttachedBlocks blocks(network_, *bodies_, target);
@@ -177,12 +177,6 @@ bool Assembler::sweep_bodies(const Law& law, const Stage& stage, Access& access,
   return in_domain;
 }
 
-void Assembler::finish_bodies(Access& access, const TangentRequest* request) {
-  if (bodies_->empty()) return;
-  if (access.has_residual()) bodies_->add_forces(access.data);
-  if (request != nullptr) bodies_->write_tangent(access.data, request->matrix);
-}
-
 template <class Law>
 bool Assembler::run(const Law& law, const Stage& stage, Access& access, const TangentRequest* request) {
   const auto sweep_all = [&] {
@@ -191,7 +185,7 @@ bool Assembler::run(const Law& law, const Stage& stage, Access& access, const Ta
                               : sweep<Law, true, true>(law, stage, access, request);
   };
   const bool in_domain = sweep_all();
-  finish_bodies(access, request);
+  if (!bodies_->empty()) bodies_->collect(access.data, request != nullptr ? &request->matrix : nullptr);
   return in_domain;
 }
 

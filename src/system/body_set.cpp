@@ -26,16 +26,17 @@ bool is_in_domain(const bodies::Properties& body, const bodies::Start& start, co
 }
 
 /// How a carried node's motion follows the attitude.
-void differentiate(const bodies::Stage& stage, const Vector3& r, bool is_damped, CarriedTangent& tangent) {
+void differentiate(const bodies::StageMotion& motion, const bodies::StageForces& forces, const Vector3& r,
+                   bool is_damped, CarriedTangent& tangent) {
   using Columns = Eigen::Map<Eigen::Matrix<double, 12, 1>>;
   const auto fill = [&r](const bodies::Stacked& by, bodies::Matrix34& columns) {
     Columns(columns.data()).noalias() = by.lazyProduct(r);
   };
-  fill(stage.place, tangent.x);
-  fill(stage.acceleration, tangent.a);
-  if (is_damped) fill(stage.velocity, tangent.v);
-  const Vector3 lever = stage.at.lever * r;
-  for (int k = 0; k < tangent.unknowns; ++k) tangent.load.col(k) = stage.at.turn.col(k).cross(lever);
+  fill(motion.by_place, tangent.x);
+  fill(motion.by_acceleration, tangent.a);
+  if (is_damped) fill(motion.by_velocity, tangent.v);
+  const Vector3 lever = forces.lever * r;
+  for (int k = 0; k < tangent.unknowns; ++k) tangent.load.col(k) = forces.turn.col(k).cross(lever);
 }
 
 }   // namespace
@@ -44,7 +45,7 @@ BodySet::BodySet(const partition::LocalNetwork& network, bool is_damped)
     : network_(network),
       is_damped_(is_damped),
       starts_(network.bodies.size()),
-      stages_(network.bodies.size()),
+      forces_(network.bodies.size()),
       tangents_(network.carried.size()),
       blocks_(at(network.own_bodies), BodyBlock::Zero()) {
   for (std::size_t k = 0; k < tangents_.size(); ++k) tangents_[k].unknowns = unknowns(at(network.carried[k].body));
@@ -61,13 +62,20 @@ bodies::RotationState BodySet::rotation(std::size_t body, const NodeData& data) 
   return state;
 }
 
-void BodySet::begin_step(double t, const NodeData& data) {
-  for (std::size_t b = 0; b < starts_.size(); ++b) {
-    const bodies::RotationState state = rotation(b, data);
-    starts_[b] = bodies::start_of(network_.bodies[b].properties, state.y, state.dy);
-  }
-  place({t, 0, 0}, false, data, nullptr);
+void BodySet::begin_step(const NodeData& data) {
   const AnyNodes nodes{data};
+  for (std::size_t b = 0; b < starts_.size(); ++b) {
+    const partition::LocalBody& body = network_.bodies[b];
+    const bodies::RotationState state = rotation(b, data);
+    starts_[b] = bodies::start_of(body.properties, state.y, state.dy);
+    const Vector3 w = starts_[b].w;
+    for (int k = body.first_carried; k < body.first_carried + body.carried; ++k) {
+      const auto& [node, index, r] = network_.carried[at(k)];
+      NodeMotion& here = data.outside[node - data.owned];
+      Map3(here.x) = Const3(nodes.x(body.node)) + starts_[b].R * r;
+      Map3(here.v) = Const3(nodes.v(body.node)) + starts_[b].R * w.cross(r);
+    }
+  }
   link_starts_.clear();
   for (const auto& [node, stiffness] : network_.links)
     link_starts_.push_back(difference(nodes.x(node[1]), nodes.x(node[0])));
@@ -75,24 +83,24 @@ void BodySet::begin_step(double t, const NodeData& data) {
 
 bool BodySet::place(const Stage& stage, bool conserving, const NodeData& data, const bodies::Seeds* seeds) {
   const AnyNodes nodes{data};
+  bodies::StageMotion motion;
   outside_ = -1;
-  for (std::size_t b = 0; b < stages_.size(); ++b) {
+  for (std::size_t b = 0; b < forces_.size(); ++b) {
     const partition::LocalBody& body = network_.bodies[b];
     const bool turns_freely = body.properties.rotation == bodies::Rotation::quaternion;
     const bodies::StepRule rule{stage.dt > 0 ? stage.alpha_f : 1, stage.dt, conserving && turns_freely && stage.dt > 0};
     const bodies::RotationState state = rotation(b, data);
     if (!is_in_domain(body.properties, starts_[b], rule, state.y)) outside_ = static_cast<int>(b);
     const bool gets_tangent = seeds != nullptr && unknowns(b) > 0;
-    bodies::evaluate(body.properties, starts_[b], rule, state, gets_tangent ? seeds : nullptr, stages_[b]);
-    const bodies::StageMaps& maps = stages_[b].at;
+    bodies::evaluate(body.properties, starts_[b], rule, state, gets_tangent ? seeds : nullptr, motion, forces_[b]);
     for (int k = body.first_carried; k < body.first_carried + body.carried; ++k) {
       const auto& [node, index, r] = network_.carried[at(k)];
       NodeMotion& here = data.outside[node - data.owned];
-      Map3(here.x) = Const3(nodes.x(body.node)) + maps.place * r;
-      Map3(here.v) = Const3(nodes.v(body.node)) + maps.velocity * r;
-      if (data.a != nullptr) Map3(here.a) = Const3(nodes.a(body.node)) + maps.acceleration * r;
+      Map3(here.x) = Const3(nodes.x(body.node)) + motion.place * r;
+      Map3(here.v) = Const3(nodes.v(body.node)) + motion.velocity * r;
+      if (data.a != nullptr) Map3(here.a) = Const3(nodes.a(body.node)) + motion.acceleration * r;
       Map3(data.outside_r + 3 * std::ptrdiff_t{node - data.owned}).setZero();
-      if (seeds != nullptr) differentiate(stages_[b], r, is_damped_, tangents_[at(k)]);
+      if (seeds != nullptr) differentiate(motion, forces_[b], r, is_damped_, tangents_[at(k)]);
     }
   }
   return outside_ < 0;
@@ -119,40 +127,42 @@ BodySet::Sums BodySet::sums(std::size_t b, const NodeData& data) const {
   return sums;
 }
 
-void BodySet::add_forces(const NodeData& data) const {
+void BodySet::collect(const NodeData& data, TangentMatrix* tangent) {
+  const std::array<double*, 2> values = tangent != nullptr ? tangent->open() : std::array<double*, 2>{};
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const Sums sum = sums(b, data);
-    double* const r = data.r + data.begin[network_.bodies[b].node];
-    Map3 force(r);
-    force += sum.force;
-    const bodies::StageMaps& maps = stages_[b].at;
-    const bodies::Vector4 rows = maps.own + maps.turn.transpose() * bodies::torque_of(maps.lever, sum.moments);
-    for (int k = 0; k < unknowns(b); ++k) r[3 + k] += rows(k);
+    const Vector3 torque = bodies::torque_of(forces_[b].lever, sum.moments);
+    if (data.r != nullptr) add_forces(b, sum, torque, data);
+    if (tangent != nullptr) write_block(b, sum, torque, values[0], tangent->body_slots()[b]);
   }
+  if (tangent != nullptr) tangent->close();
 }
 
-void BodySet::write_tangent(const NodeData& data, TangentMatrix& matrix) {
-  const std::array<double*, 2> values = matrix.open();
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    const Sums sum = sums(b, data);
-    const bodies::StageMaps& maps = stages_[b].at;
-    const Vector3 torque = bodies::torque_of(maps.lever, sum.moments);
-    const int n = unknowns(b);
-    BodyBlock& block = blocks_[b];
-    for (int k = 0; k < n; ++k) {
-      const Matrix3 lever = stages_[b].lever.block<3, 3>(3 * k, 0);
-      block.col(3 + k).tail<4>() += stages_[b].own.col(k) + stages_[b].turn[at(k)].transpose() * torque +
-                                    maps.turn.transpose() * bodies::torque_of(lever, sum.moments);
-    }
-    const TangentMatrix::Slot& slot = matrix.body_slots()[b];
-    for (int i = 0; i < 3 + n; ++i)
-      for (int j = 0; j < 3 + n; ++j) {
-        double& to = (values[0] + slot.offset + i * static_cast<int>(slot.stride))[j];
-        to = slot.add ? to + block(i, j) : block(i, j);
-      }
-    block.setZero();
+void BodySet::add_forces(std::size_t b, const Sums& sum, const Vector3& torque, const NodeData& data) const {
+  double* const r = data.r + data.begin[network_.bodies[b].node];
+  Map3(r) += sum.force;
+  const bodies::Vector4 rows = forces_[b].own + forces_[b].turn.transpose() * torque;
+  for (int k = 0; k < unknowns(b); ++k) r[3 + k] += rows(k);
+}
+
+void BodySet::write_block(std::size_t b, const Sums& sum, const Vector3& torque, double* values,
+                          const TangentMatrix::Slot& slot) {
+  const bodies::StageForces& forces = forces_[b];
+  const int n = unknowns(b);
+  BodyBlock& block = blocks_[b];
+  for (int k = 0; k < n; ++k) {
+    const Matrix3 lever = forces.by_lever.block<3, 3>(3 * k, 0);
+    block.col(3 + k).tail<4>() += forces.by_own.col(k) + forces.by_turn[at(k)].transpose() * torque +
+                                  forces.turn.transpose() * bodies::torque_of(lever, sum.moments);
   }
-  matrix.close();
+  double* to = values + slot.offset;
+  for (int i = 0; i < 3 + n; ++i, to += slot.stride) {
+    if (slot.add)
+      for (int j = 0; j < 3 + n; ++j) to[j] += block(i, j);
+    else
+      for (int j = 0; j < 3 + n; ++j) to[j] = block(i, j);
+  }
+  block.setZero();
 }
 
 double BodySet::end_step(const Stage& stage, bool conserving, double* x, double* v) const {
@@ -163,7 +173,7 @@ double BodySet::end_step(const Stage& stage, bool conserving, double* x, double*
     bodies::RotationState state;
     std::copy_n(x + place, n, state.y.data());
     std::copy_n(v + place, n, state.dy.data());
-    Vector3 w = bodies::angular_velocity(body.properties.rotation, state);
+    Vector3 w;
     if (conserving && body.properties.rotation == bodies::Rotation::quaternion) {
       w = body.carried == 0 ? bodies::end_by_momentum(body.properties, starts_[b], stage.dt, state.y)
                             : bodies::end_by_turn(starts_[b], stage.dt, state.y);
@@ -171,6 +181,8 @@ double BodySet::end_step(const Stage& stage, bool conserving, double* x, double*
       state = bodies::rotation_state(body.properties.rotation, attitude, w);
       std::copy_n(state.y.data(), n, x + place);
       std::copy_n(state.dy.data(), n, v + place);
+    } else {
+      w = bodies::angular_velocity(body.properties.rotation, state);
     }
     if (n > 0) work += 0.5 * stage.dt * body.properties.torque.dot(starts_[b].w + w);
   }

@@ -30,7 +30,7 @@ public:
   bool empty() const { return network_.bodies.empty(); }
 
   /// Keeps the step's start, where it places the carried nodes.
-  void begin_step(double t, const NodeData& data);
+  void begin_step(const NodeData& data);
   /// Gaps of the links there [m].
   const std::vector<Vector3>& link_starts() const { return link_starts_; }
   /// Sets the carried nodes' motion at the stage and clears their forces.
@@ -44,10 +44,9 @@ public:
   /// Where a part of the block of the body that carries `local_node` is added; nullptr if it is another rank's.
   BodyBlock* block_at(int local_node);
 
-  /// Adds what the bodies' own inertia and the forces on carried nodes come to.
-  void add_forces(const NodeData& data) const;
-  /// Likewise the bodies' own blocks.
-  void write_tangent(const NodeData& data, TangentMatrix& matrix);
+  /// Adds what the bodies' own inertia and the forces on carried nodes come to, where data has a residual, and writes
+  /// the bodies' own blocks of the tangent, where there is one.
+  void collect(const NodeData& data, TangentMatrix* tangent);
 
   /// Ends an accepted step: conserving ones set their own end velocities.
   /// @returns the work of the constant torques [J]
@@ -61,13 +60,16 @@ private:
     bodies::Moments moments;
   };
   Sums sums(std::size_t body, const NodeData& data) const;
+  void add_forces(std::size_t body, const Sums& sum, const Vector3& torque, const NodeData& data) const;
+  void write_block(std::size_t body, const Sums& sum, const Vector3& torque, double* values,
+                   const TangentMatrix::Slot& slot);
   int unknowns(std::size_t body) const { return bodies::rotation_unknowns(network_.bodies[body].properties.rotation); }
 
   const partition::LocalNetwork& network_;
   bool is_damped_;
   std::vector<bodies::Start> starts_;
   std::vector<Vector3> link_starts_;
-  std::vector<bodies::Stage> stages_;
+  std::vector<bodies::StageForces> forces_;
   std::vector<CarriedTangent> tangents_;
   std::vector<BodyBlock> blocks_;
   int outside_ = -1;

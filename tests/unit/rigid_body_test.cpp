@@ -38,17 +38,16 @@ struct Way {
 
 class RigidBodyMaps : public testing::TestWithParam<Way> {};
 
-Stage evaluated(const Properties& p, const Start& start, const StepRule& rule, const RotationState& s,
-                const Seeds* seeds) {
-  Stage stage;
-  evaluate(p, start, rule, s, seeds, stage);
-  return stage;
-}
+struct Stage {
+  StageMotion motion;
+  StageForces forces;
+};
 
-double distance(const StageMaps& a, const StageMaps& b) {
-  return std::max({(a.place - b.place).cwiseAbs().maxCoeff(), (a.velocity - b.velocity).cwiseAbs().maxCoeff(),
-                   (a.acceleration - b.acceleration).cwiseAbs().maxCoeff(), (a.lever - b.lever).cwiseAbs().maxCoeff(),
-                   (a.turn - b.turn).cwiseAbs().maxCoeff(), (a.own - b.own).cwiseAbs().maxCoeff()});
+Stage evaluated(const Properties& p, const Start& start, const StepRule& rule, const RotationState& s,
+                const Seeds* seeds = nullptr) {
+  Stage stage;
+  evaluate(p, start, rule, s, seeds, stage.motion, stage.forces);
+  return stage;
 }
 
 TEST_P(RigidBodyMaps, DerivativesAreThoseOfTheValues) {
@@ -58,33 +57,28 @@ TEST_P(RigidBodyMaps, DerivativesAreThoseOfTheValues) {
   const Start start = start_of(p, begin.y, begin.dy);
   const RotationState s = stage_of(rotation);
   const Seeds seeds{1, 100, 2e4};
-  const Stage exact = evaluated(p, start, rule_of(conserving), s, &seeds);
-  const double h = 1e-6;
+  const auto [motion, forces] = evaluated(p, start, rule_of(conserving), s, &seeds);
+  const double h = 1e-6,
+               size = std::max(forces.by_own.cwiseAbs().maxCoeff(), motion.by_acceleration.cwiseAbs().maxCoeff());
   for (int k = 0; k < rotation_unknowns(rotation); ++k) {
-    const auto at = [&](double step) {
+    const auto at = [&, rotate = conserving](double step) {
       RotationState moved = s;
       moved.y(k) += step * seeds.position;
       moved.dy(k) += step * seeds.velocity;
       moved.ddy(k) += step * seeds.acceleration;
-      return evaluated(p, start, rule_of(conserving), moved, nullptr).at;
+      return evaluated(p, start, rule_of(rotate), moved);
     };
-    const StageMaps plus = at(h), minus = at(-h);
+    const Stage plus = at(h), minus = at(-h);
+    const auto error = [h](const auto& after, const auto& before, const auto& by) {
+      return ((after - before) / (2 * h) - by).cwiseAbs().maxCoeff();
+    };
     const auto part = [k](const Stacked& stacked) -> Matrix3 { return stacked.block<3, 3>(3 * k, 0); };
-    const StageMaps by{part(exact.place),
-                       part(exact.velocity),
-                       part(exact.acceleration),
-                       part(exact.lever),
-                       exact.turn[static_cast<std::size_t>(k)],
-                       exact.own.col(k)};
-    const auto slope = [h](const auto& a, const auto& b) { return ((a - b) / (2 * h)).eval(); };
-    const StageMaps numeric{slope(plus.place, minus.place),
-                            slope(plus.velocity, minus.velocity),
-                            slope(plus.acceleration, minus.acceleration),
-                            slope(plus.lever, minus.lever),
-                            slope(plus.turn, minus.turn),
-                            slope(plus.own, minus.own)};
-    const double size = std::max(by.own.cwiseAbs().maxCoeff(), by.acceleration.cwiseAbs().maxCoeff());
-    EXPECT_LE(distance(numeric, by), 1e-6 * size) << "unknown " << k;
+    EXPECT_LE(error(plus.motion.place, minus.motion.place, part(motion.by_place)), 1e-6 * size);
+    EXPECT_LE(error(plus.motion.velocity, minus.motion.velocity, part(motion.by_velocity)), 1e-6 * size);
+    EXPECT_LE(error(plus.motion.acceleration, minus.motion.acceleration, part(motion.by_acceleration)), 1e-6 * size);
+    EXPECT_LE(error(plus.forces.lever, minus.forces.lever, part(forces.by_lever)), 1e-6 * size);
+    EXPECT_LE(error(plus.forces.turn, minus.forces.turn, forces.by_turn[static_cast<std::size_t>(k)]), 1e-6 * size);
+    EXPECT_LE(error(plus.forces.own, minus.forces.own, forces.by_own.col(k)), 1e-6 * size);
   }
 }
 
@@ -111,9 +105,9 @@ TEST_P(RigidBodyRotation, AttachmentsMoveAsTheAttitudeTurns) {
   const auto place = [&](double t) {
     RotationState later = s;
     later.y += t * s.dy + 0.5 * t * t * s.ddy;
-    return evaluated(p, {}, {}, later, nullptr).at.place;
+    return evaluated(p, {}, {}, later).motion.place;
   };
-  const StageMaps now = evaluated(p, {}, {}, s, nullptr).at;
+  const auto [now, forces] = evaluated(p, {}, {}, s);
   EXPECT_LE(((place(h) - place(-h)) / (2 * h) - now.velocity).norm(), 1e-7);
   EXPECT_LE(((place(h) - 2 * now.place + place(-h)) / (h * h) - now.acceleration).norm(), 1e-6);
   EXPECT_LE((now.place * now.place.transpose() - Matrix3::Identity()).norm(), 1e-14);
@@ -123,12 +117,12 @@ TEST_P(RigidBodyRotation, AttachmentsMoveAsTheAttitudeTurns) {
 TEST_P(RigidBodyRotation, OwnForcesAreEulersEquations) {
   const Properties p = body(GetParam());
   const RotationState s = stage_of(GetParam());
-  const StageMaps now = evaluated(p, {}, {}, s, nullptr).at;
+  const auto [now, forces] = evaluated(p, {}, {}, s);
   const Vector3 w = angular_velocity(GetParam(), s);
   const Matrix3 R = now.place, spin = R.transpose() * now.acceleration;
   const Vector3 dw(0.5 * (spin(2, 1) - spin(1, 2)), 0.5 * (spin(0, 2) - spin(2, 0)), 0.5 * (spin(1, 0) - spin(0, 1)));
   const Vector3 torque = p.inertia * dw + w.cross(p.inertia * w) - p.torque;
-  Vector4 own = now.own - now.turn.transpose() * (R * torque);
+  Vector4 own = forces.own - forces.turn.transpose() * (R * torque);
   if (GetParam() == Rotation::quaternion) own -= own.dot(s.y) / s.y.squaredNorm() * s.y;
   EXPECT_LE(own.norm(), 1e-13);
 }
@@ -147,12 +141,12 @@ TEST(RigidBodyConserving, LeversDoTheWorkOfTheirForces) {
   s.y << end.w(), end.vec();
   s.dy = (s.y - begin.y) / dt;
   s.y = 0.5 * (s.y + begin.y);
-  const StageMaps maps = evaluated(p, start, {0.5, dt, true}, s, nullptr).at;
+  const auto [motion, forces] = evaluated(p, start, {0.5, dt, true}, s);
   const Vector3 r(0.3, -0.7, 0.2), F(5, -3, 7);
   const double along = F.dot(end * r - tilted * r);
-  const double turned = torque_of(maps.lever, F * r.transpose()).dot(tilted * turn);
+  const double turned = torque_of(forces.lever, F * r.transpose()).dot(tilted * turn);
   EXPECT_NEAR(along, turned, 1e-13 * std::abs(along));
-  EXPECT_LE((maps.velocity * r * dt - (end * r - tilted * r)).norm(), 1e-14);
+  EXPECT_LE((motion.velocity * r * dt - (end * r - tilted * r)).norm(), 1e-14);
 }
 
 TEST(RigidBodyConserving, EndByTurnAndByMomentumAgreeWhereTheEquationsHold) {

@@ -66,32 +66,32 @@ struct StepRule {
 /// How y_a, y_a', y_a'' follow the unknown that a tangent is by: 1, shift_v, shift_a; 0, 0, 1 for a mass matrix.
 struct Seeds {
   double position, velocity, acceleration;
-};
-
-/// What a stage makes of the attitude.
-struct StageMaps {
-  /// An attachment r moves as X_a + place r, X_a' + velocity r, X_a'' + acceleration r, where place and velocity lie
-  /// between the step's two ends.
-  Matrix3 place, velocity, acceleration;
-  Matrix3 lever;   ///< a force F at r turns by (lever r) x F, world frame
-  Matrix34 turn;   ///< a torque T, world frame, is the generalised force turn^T T on y
-  Vector4 own;     ///< inertia, gyroscopic and gauge forces on y less the constant torque's
+  bool with_velocity = true;   ///< StageMotion::by_velocity is of use
 };
 
 /// A map's derivatives by the unknowns, one below the other: times r it is that of the map's r, (3, 4) column-major.
 using Stacked = Eigen::Matrix<double, 12, 3>;
 
-struct Stage {
-  StageMaps at;
-  /// Derivatives by the unknowns, if asked for.
-  Stacked place = Stacked::Zero(), velocity = place, acceleration = place, lever = place;
-  std::array<Matrix34, 4> turn{Matrix34::Zero(), Matrix34::Zero(), Matrix34::Zero(), Matrix34::Zero()};
-  Matrix4 own = Matrix4::Zero();   ///< of own's rows
+/// An attachment r moves as X_a + place r, X_a' + velocity r, X_a'' + acceleration r, where place and velocity lie
+/// between the step's two ends.
+struct StageMotion {
+  Matrix3 place, velocity, acceleration;
+  Stacked by_place = Stacked::Zero(), by_velocity = by_place, by_acceleration = by_place;
 };
 
-/// @param seeds  none: values alone
+/// What makes the attitude turn.
+struct StageForces {
+  Matrix3 lever;   ///< a force F at r turns by (lever r) x F, world frame
+  Matrix34 turn;   ///< a torque T, world frame, is the generalised force turn^T T on y
+  Vector4 own;     ///< inertia, gyroscopic and gauge forces on y less the constant torque's
+  Stacked by_lever = Stacked::Zero();
+  std::array<Matrix34, 4> by_turn{Matrix34::Zero(), Matrix34::Zero(), Matrix34::Zero(), Matrix34::Zero()};
+  Matrix4 by_own = Matrix4::Zero();
+};
+
+/// @param seeds  none: values alone, the derivatives (by_...) stay as they are
 void evaluate(const Properties&, const Start&, const StepRule&, const RotationState& stage, const Seeds* seeds,
-              Stage& result);
+              StageMotion& motion, StageForces& forces);
 
 /// w at the end of a conserving step by its kinematics: 2 W - w0, dt W being the turn from q0 to q1.
 Vector3 end_by_turn(const Start&, double dt, const Vector4& y1);

@@ -87,7 +87,6 @@ private:
   bool sweep(const Law& law, const Stage& stage, Access& access, const TangentRequest* request);
   template <class Law, bool with_tangent>
   bool sweep_bodies(const Law& law, const Stage& stage, Access& access, const TangentRequest* request);
-  void finish_bodies(Access& access, const TangentRequest* request);
   void add_loads(Access& access, const TangentRequest* request);
 
   /// A prescribed node at the two ends of the step.
