@@ -33,7 +33,8 @@ struct AttachedWork {
     add_attached_force(network, nodes, n1, inertia.on1 - f);
     add_attached_force(network, nodes, n2, inertia.on2 + f);
     if constexpr (with_tangent) {
-      AttachedTangent tangent{K, Matrix3::Zero(), material.mass_per_length * e.length / 6, material.mass_damping};
+      AttachedTangent tangent{K, Matrix3::Zero(), material.mass_per_length * e.length / 6, material.mass_damping,
+                              Law::general};
       if constexpr (Law::general) {
         stage.shift_v = 1;
         law.template evaluate<true>(starts[i], stage, f, K);

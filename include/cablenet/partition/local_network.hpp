@@ -70,7 +70,7 @@ struct LocalNetwork {
   std::vector<LocalPrescribed> prescribed;
   std::vector<LocalBody> bodies;   ///< at owned nodes, then at ghosts
   int own_bodies = 0;
-  bool has_euler_bodies = false;   ///< on any rank
+  bool has_euler_bodies = false;       ///< on any rank
   std::vector<LocalCarried> carried;   ///< body after body
   std::vector<network::Link> links;    ///< nodes are local; own ones first
   int own_links = 0;                   ///< that belong to this rank: the owner of the free end's
