@@ -110,9 +110,8 @@ Values evaluate_values(const Properties& body, const Start& start, double dt, co
   const Values v = evaluate_values(body, start, dt, stage, motion, forces);
   if (seeds == nullptr) return;
   const double by_square = 1 / stage.y.squaredNorm(), by_end_square = 2 / v.q1.squaredNorm();
-  // E(a) b = -E(b) a.
   Matrix34 by_w = seeds->velocity * v.turn.rates - 2 * by_square * v.turn.w * stage.y.transpose();
-  by_w -= by_square * stage.dy.squaredNorm() * QuaternionRotation::rates<double>(stage.dy);
+  by_w -= 2 * by_square * QuaternionRotation::E<double>(stage.dy);
   const Eigen::RowVector4d by_u = 2 * dt * dt * v.turn.w.transpose() * by_w;
   const Matrix34 by_w1 = 2 / dt * (v.turn.arc.value * by_w + v.turn.arc.by * v.turn.w * by_u);
   const Matrix34 by_momentum = (v.R1 * body.inertia) * by_w1;

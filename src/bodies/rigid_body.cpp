@@ -3,7 +3,7 @@
 #include <cmath>
 #include <unsupported/Eigen/AutoDiff>
 
-#include "cablenet/bodies/rotation.hpp"
+#include "cablenet/bodies/euler.hpp"
 #include "conserving.hpp"
 
 namespace cablenet::bodies {

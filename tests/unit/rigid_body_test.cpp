@@ -34,6 +34,7 @@ StepRule rule_of(bool conserving) { return conserving ? StepRule{0.5, 0.02, true
 struct Way {
   Rotation rotation;
   bool conserving;
+  bool at_rest = false;
 };
 
 class RigidBodyMaps : public testing::TestWithParam<Way> {};
@@ -51,11 +52,12 @@ Stage evaluated(const Properties& p, const Start& start, const StepRule& rule, c
 }
 
 TEST_P(RigidBodyMaps, DerivativesAreThoseOfTheValues) {
-  const auto [rotation, conserving] = GetParam();
+  const auto [rotation, conserving, at_rest] = GetParam();
   const Properties p = body(rotation);
   const RotationState begin = rotation_state(rotation, tilted, Vector3(0.5, -0.2, 0.9));
   const Start start = start_of(p, begin.y, begin.dy);
-  const RotationState s = stage_of(rotation);
+  RotationState s = stage_of(rotation);
+  if (at_rest) s.dy.setZero();
   const Seeds seeds{1, 100, 2e4};
   const auto [motion, forces] = evaluated(p, start, rule_of(conserving), s, &seeds);
   const double h = 1e-6,
@@ -84,7 +86,7 @@ TEST_P(RigidBodyMaps, DerivativesAreThoseOfTheValues) {
 
 INSTANTIATE_TEST_SUITE_P(All, RigidBodyMaps,
                          testing::Values(Way{Rotation::quaternion, false}, Way{Rotation::quaternion, true},
-                                         Way{Rotation::euler, false}));
+                                         Way{Rotation::quaternion, true, true}, Way{Rotation::euler, false}));
 
 class RigidBodyRotation : public testing::TestWithParam<Rotation> {};
 

@@ -65,13 +65,18 @@ struct QuaternionRotation {
     R << 1.0 - yy - zz, xy - wz, xz + wy, xy + wz, 1.0 - xx - zz, yz - wx, xz - wy, yz + wx, 1.0 - xx - yy;
     return R;
   }
-  /// 2/|q|^2 E(q), E q = 0: w = rates q'.
+  /// E q = 0, E(a) b = -E(b) a.
+  template <class S>
+  static Eigen::Matrix<S, 3, 4> E(const Unknowns<S, 4>& q) {
+    Eigen::Matrix<S, 3, 4> m;
+    m << -q(1), q(0), q(3), -q(2), -q(2), -q(3), q(0), q(1), -q(3), q(2), -q(1), q(0);
+    return m;
+  }
+  /// 2/|q|^2 E(q): w = rates q'.
   template <class S>
   static Eigen::Matrix<S, 3, 4> rates(const Unknowns<S, 4>& q) {
-    Eigen::Matrix<S, 3, 4> E;
-    E << -q(1), q(0), q(3), -q(2), -q(2), -q(3), q(0), q(1), -q(3), q(2), -q(1), q(0);
     const S s = 2.0 / q.squaredNorm();
-    return s * E;
+    return s * E(q);
   }
   /// R rates: the angular velocity in the world's axes is that by q'.
   template <class S>
@@ -87,45 +92,6 @@ struct QuaternionRotation {
     t.w = t.rates * dq;
     const S s = 2.0 * q.dot(dq) / q.squaredNorm();
     t.dw = t.rates * ddq - s * t.w;
-    return t;
-  }
-};
-
-/// y = (roll, pitch, yaw) [rad]: R = Rz(yaw) Ry(pitch) Rx(roll).  Singular where cos(pitch) = 0.
-/// Source: Tonin & Braun, CILAMCE 2020, eqs 16, 17.
-struct EulerRotation {
-  static constexpr int unknowns = 3;
-
-  template <class S>
-  static Mat3<S> matrix(const Unknowns<S, 3>& y) {
-    using std::cos, std::sin;
-    const S cr = cos(y(0)), sr = sin(y(0)), cp = cos(y(1)), sp = sin(y(1)), cy = cos(y(2)), sy = sin(y(2));
-    Mat3<S> R;
-    R << cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr, sy * cp, sy * sp * sr + cy * cr,
-        sy * sp * cr - cy * sr, -sp, cp * sr, cp * cr;
-    return R;
-  }
-  /// A of eq 17.
-  template <class S>
-  static Mat3<S> rates(const Unknowns<S, 3>& y) {
-    using std::cos, std::sin;
-    const S cr = cos(y(0)), sr = sin(y(0)), cp = cos(y(1)), sp = sin(y(1));
-    Mat3<S> A;
-    A << S(1), S(0), -sp, S(0), cr, sr * cp, S(0), -sr, cr * cp;
-    return A;
-  }
-  /// w' = A y'' + B, B of eq 17.
-  template <class S>
-  static Turning<S, 3> turning(const Unknowns<S, 3>& y, const Unknowns<S, 3>& dy, const Unknowns<S, 3>& ddy) {
-    using std::cos, std::sin;
-    Turning<S, 3> t{matrix(y), rates(y), {}, {}};
-    t.w = t.rates * dy;
-    const S cr = cos(y(0)), sr = sin(y(0)), cp = cos(y(1)), sp = sin(y(1));
-    const S roll = dy(0), pitch = dy(1), yaw = dy(2);
-    Vec3<S> B;
-    B << -pitch * yaw * cp, -roll * pitch * sr + roll * yaw * cr * cp - yaw * pitch * sr * sp,
-        -pitch * roll * cr - yaw * roll * sr * cp - yaw * pitch * cr * sp;
-    t.dw = t.rates * ddy + B;
     return t;
   }
 };
