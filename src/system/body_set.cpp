@@ -150,11 +150,14 @@ void BodySet::write_block(std::size_t b, const Sums& sum, const Vector3& torque,
   const bodies::StageForces& forces = forces_[b];
   const int n = unknowns(b);
   BodyBlock& block = blocks_[b];
-  for (int k = 0; k < n; ++k) {
-    const Matrix3 lever = forces.by_lever.block<3, 3>(3 * k, 0);
-    block.col(3 + k).tail<4>() += forces.by_own.col(k) + forces.by_turn[at(k)].transpose() * torque +
-                                  forces.turn.transpose() * bodies::torque_of(lever, sum.moments);
-  }
+  // As torque_of(), for all unknowns at once.
+  const bodies::Stacked m = forces.by_lever.lazyProduct(sum.moments.transpose());
+  bodies::Matrix34 by_torque;
+  for (int k = 0; k < 4; ++k)
+    by_torque.col(k) << m(3 * k + 1, 2) - m(3 * k + 2, 1), m(3 * k + 2, 0) - m(3 * k, 2), m(3 * k, 1) - m(3 * k + 1, 0);
+  bodies::Matrix4 by_own = forces.by_own + forces.turn.transpose() * by_torque;
+  for (int k = 0; k < n; ++k) by_own.col(k) += forces.by_turn[at(k)].transpose() * torque;
+  block.bottomRightCorner<4, 4>() += by_own;
   double* to = values + slot.offset;
   for (int i = 0; i < 3 + n; ++i, to += slot.stride) {
     if (slot.add)
