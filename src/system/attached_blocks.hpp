@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+
 #include "body_set.hpp"
 #include "element_loop.hpp"
 
@@ -40,47 +42,49 @@ private:
     BodyBlock* const own = shared_block(row, column);
     if (slot.absent && own == nullptr) return;
     const double sign = diagonal ? 1 : -1, m = (diagonal ? 2 : 1) * t.mass;
-    const CarriedTangent *const rows = carried(row), *const columns = carried(column);
     Matrix3 by_position = sign * (t.k_x + target_.shift_v * t.k_v);
     by_position.diagonal().array() += m * (target_.shift_a + t.mass_damping * target_.shift_v);
-    const auto put = [&](int first, int width, const auto& part) {
-      add(own, slot, {0, first, 3, width}, part);
-      if (rows != nullptr) add(own, slot, {3, first, rows->unknowns, width}, (rows->load.transpose() * part).eval());
-    };
-    put(0, 3, by_position);
-    if (columns == nullptr) return;
-    bodies::Matrix34 by_attitude = m * columns->a + sign * (t.k_x * columns->x);
-    if (t.is_damped) by_attitude += (sign * t.k_v + m * t.mass_damping * Matrix3::Identity()) * columns->v;
-    put(3, columns->unknowns, by_attitude);
-  }
-
-  struct Place {
-    int row, column, rows, columns;
-  };
-
-  template <class Part>
-  [[gnu::always_inline]] static void put(double* to, const TangentMatrix::Slot& slot, const Part& part, int rows,
-                                         int columns) {
-    for (int r = 0; r < rows; ++r, to += slot.stride) {
-      if (slot.add)
-        for (int c = 0; c < columns; ++c) to[c] += part(r, c);
-      else
-        for (int c = 0; c < columns; ++c) to[c] = part(r, c);
+    const CarriedTangent* const turning = carried(column);
+    if (turning == nullptr) {
+      RowMajor<3, 4> part = RowMajor<3, 4>::Zero();
+      part.leftCols<3>() = by_position;
+      return put(own, slot, carried(row), part, 3);
     }
+    RowMajor<3, 8> part = RowMajor<3, 8>::Zero();
+    part.leftCols<3>() = by_position;
+    const Matrix3 K = sign * t.k_x;
+    for (int i = 0; i < 3; ++i) part.row(i).segment<4>(3) = m * turning->a.row(i) + combined(K.row(i), turning->x);
+    if (t.is_damped) part.middleCols<4>(3) += (sign * t.k_v + m * t.mass_damping * Matrix3::Identity()) * turning->v;
+    put(own, slot, carried(row), part, 3 + turning->unknowns);
   }
 
-  template <class Part>
-  void add(BodyBlock* own, const TangentMatrix::Slot& slot, const Place& place, const Part& part) const {
+  /// The sum of three rows, times these weights: whole rows at a time.
+  template <class Weights, int width>
+  static RowMajor<1, width> combined(const Weights& w, const RowMajor<3, width>& rows) {
+    return w(0) * rows.row(0) + w(1) * rows.row(1) + w(2) * rows.row(2);
+  }
+
+  /// Rows of the position, and those of the attitude where there is one.
+  template <int width>
+  void put(BodyBlock* own, const TangentMatrix::Slot& slot, const CarriedTangent* rows, const RowMajor<3, width>& part,
+           int columns) const {
+    RowMajor<4, width> turned;
+    for (int i = 0; rows != nullptr && i < 4; ++i) turned.row(i) = combined(rows->load.col(i), part);
     if (own != nullptr) {
-      own->block<Part::RowsAtCompileTime, Part::ColsAtCompileTime>(place.row, place.column) += part;
+      own->topLeftCorner<3, width>() += part;
+      own->bottomLeftCorner<4, width>() += turned;
       return;
     }
-    double* to = target_.values[slot.other] + slot.offset + place.row * static_cast<int>(slot.stride) + place.column;
-    constexpr int rows = Part::RowsAtCompileTime, columns = Part::ColsAtCompileTime;
-    if (place.rows == rows && place.columns == columns)
-      put(to, slot, part, rows, columns);
-    else
-      put(to, slot, part, place.rows, place.columns);
+    double* to = target_.values[slot.other] + slot.offset;
+    const auto put_row = [&](const double* from) {
+      if (slot.add)
+        for (int c = 0; c < columns; ++c) to[c] += from[c];
+      else
+        std::copy_n(from, columns, to);
+      to += slot.stride;
+    };
+    for (int r = 0; r < 3; ++r) put_row(part.data() + width * r);
+    for (int r = 0; rows != nullptr && r < rows->unknowns; ++r) put_row(turned.data() + width * r);
   }
 
   const partition::LocalNetwork& network_;

@@ -28,9 +28,10 @@ bool is_in_domain(const bodies::Properties& body, const bodies::Start& start, co
 /// How a carried node's motion follows the attitude.
 void differentiate(const bodies::StageMotion& motion, const bodies::StageForces& forces, const Vector3& r,
                    bool is_damped, CarriedTangent& tangent) {
-  using Columns = Eigen::Map<Eigen::Matrix<double, 12, 1>>;
-  const auto fill = [&r](const bodies::Stacked& by, bodies::Matrix34& columns) {
-    Columns(columns.data()).noalias() = by.lazyProduct(r);
+  const auto fill = [&r](const bodies::Stacked& by, RowMajor<3, 4>& columns) {
+    bodies::Matrix34 all;
+    Eigen::Map<Eigen::Matrix<double, 12, 1>>(all.data()).noalias() = by.lazyProduct(r);
+    columns = all;
   };
   fill(motion.by_place, tangent.x);
   fill(motion.by_acceleration, tangent.a);
@@ -157,7 +158,7 @@ void BodySet::write_block(std::size_t b, const Sums& sum, const Vector3& torque,
     by_torque.col(k) << m(3 * k + 1, 2) - m(3 * k + 2, 1), m(3 * k + 2, 0) - m(3 * k, 2), m(3 * k, 1) - m(3 * k + 1, 0);
   bodies::Matrix4 by_own = forces.by_own + forces.turn.transpose() * by_torque;
   for (int k = 0; k < n; ++k) by_own.col(k) += forces.by_turn[at(k)].transpose() * torque;
-  block.bottomRightCorner<4, 4>() += by_own;
+  block.block<4, 4>(3, 3) += by_own;
   double* to = values + slot.offset;
   for (int i = 0; i < 3 + n; ++i, to += slot.stride) {
     if (slot.add)

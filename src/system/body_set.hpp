@@ -9,16 +9,20 @@
 
 namespace cablenet::system {
 
+/// Row-major, as the matrix that such parts go to.
+template <int rows, int columns>
+using RowMajor = Eigen::Matrix<double, rows, columns, Eigen::RowMajor>;
+
 /// How a carried node's motion follows its body's attitude, by its unknowns; zero columns where those are fewer than
 /// four.  The body's position comes on top as it is.
 struct CarriedTangent {
-  bodies::Matrix34 x = bodies::Matrix34::Zero(), v = x, a = x;
+  RowMajor<3, 4> x = RowMajor<3, 4>::Zero(), v = x, a = x;
   bodies::Matrix34 load = x;   ///< a force F is the generalised force load^T F on the attitude
   int unknowns = 0;            ///< of the attitude
 };
 
-/// A body's block of the tangent while its parts are collected.
-using BodyBlock = Eigen::Matrix<double, 7, 7>;
+/// A body's block of the tangent while its parts are collected, and a column to spare.
+using BodyBlock = RowMajor<7, 8>;
 
 /// The bodies at this rank's nodes during an evaluation: first they place the nodes that they carry, then elements
 /// leave forces on those, and the bodies collect them.
