@@ -1,5 +1,5 @@
 #pragma once
-#include <algorithm>
+#include <type_traits>
 
 #include "body_set.hpp"
 #include "element_loop.hpp"
@@ -76,15 +76,25 @@ private:
       return;
     }
     double* to = target_.values[slot.other] + slot.offset;
-    const auto put_row = [&](const double* from) {
-      if (slot.add)
-        for (int c = 0; c < columns; ++c) to[c] += from[c];
-      else
-        std::copy_n(from, columns, to);
-      to += slot.stride;
+    const auto put_rows = [&](auto count) {
+      for (int r = 0; r < 3; ++r, to += slot.stride) put_row(to, slot, part.data() + width * r, count);
+      if (rows == nullptr) return;
+      for (int r = 0; r < rows->unknowns; ++r, to += slot.stride) put_row(to, slot, turned.data() + width * r, count);
     };
-    for (int r = 0; r < 3; ++r) put_row(part.data() + width * r);
-    for (int r = 0; rows != nullptr && r < rows->unknowns; ++r) put_row(turned.data() + width * r);
+    // Loops of known length are several times faster; only Euler angles have another one.
+    constexpr int usual = width - 1;
+    if (columns == usual)
+      put_rows(std::integral_constant<int, usual>());
+    else
+      put_rows(columns);
+  }
+
+  template <class Count>
+  static void put_row(double* to, const TangentMatrix::Slot& slot, const double* from, Count count) {
+    if (slot.add)
+      for (int c = 0; c < count; ++c) to[c] += from[c];
+    else
+      for (int c = 0; c < count; ++c) to[c] = from[c];
   }
 
   const partition::LocalNetwork& network_;
