@@ -62,17 +62,6 @@ Matrix3 half_slope(const Vector4& q, double by_square, const Matrix3& R) {
   return 0.5 * (M - own * R);
 }
 
-/// G(e_k), of which world_rates is the sum over q_k times 2/|q|^2.
-template <int k>
-Matrix34 world_unit() {
-  Matrix34 G = Matrix34::Zero();
-  if (k == 0) G.rightCols<3>().setIdentity();
-  if (k == 1) G << -1, 0, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0;
-  if (k == 2) G << 0, 0, 0, 1, -1, 0, 0, 0, 0, -1, 0, 0;
-  if (k == 3) G << 0, 0, -1, 0, 0, 1, 0, 0, -1, 0, 0, 0;
-  return G;
-}
-
 /// What values and derivatives share.
 struct Values {
   Vector4 q1;
@@ -124,10 +113,8 @@ Values evaluate_values(const Properties& body, const Start& start, double dt, co
     motion.by_acceleration.block<3, 3>(3 * k, 0) =
         times_skew<double>(half, w1) + times_skew<double>(v.R1, by_w1.col(k));
     forces.by_lever.block<3, 3>(3 * k, 0) = v.turn.lever.by * by_u(k) * motion.place + 2 * v.turn.lever.value * half;
-    Matrix34& by_turn = forces.by_turn[static_cast<std::size_t>(k)];
-    by_turn = 2 * by_square * (world_unit<k>() - stage.y(k) * forces.turn);
     const Vector3 by_torque = half * swept + by_momentum.col(k);
-    forces.by_own.col(k) = by_turn.transpose() * v.torque + forces.turn.transpose() * by_torque +
+    forces.by_own.col(k) = forces.turn.transpose() * by_torque +
                            v.gauge * by_square * (4 * v.q1(k) - 2 * v.excess * by_square * stage.y(k)) * stage.y;
     forces.by_own(k, k) += v.gauge * by_square * v.excess;
   };

@@ -95,11 +95,8 @@ void copy_derivatives(const Maps<S, n>& from, StageMotion& motion, StageForces& 
   stack(from.velocity, n, motion.by_velocity);
   stack(from.acceleration, n, motion.by_acceleration);
   stack(from.lever, n, forces.by_lever);
-  for (int k = 0; k < n; ++k) {
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < 3; ++i) forces.by_turn[static_cast<std::size_t>(k)](i, j) = from.turn(i, j).derivatives()(k);
+  for (int k = 0; k < n; ++k)
     for (int i = 0; i < n; ++i) forces.by_own(i, k) = from.own(i).derivatives()(k);
-  }
 }
 
 template <class Way>
@@ -121,6 +118,8 @@ template <class Way>
   const Maps<Number, n> maps = stage_maps<Way, Number>(body, start, rule, m);
   copy_values(maps, motion, forces);
   copy_derivatives(maps, motion, forces);
+  forces.y = stage.y;
+  forces.by_position = seeds->position;
 }
 
 }   // namespace
@@ -187,6 +186,24 @@ void evaluate(const Properties& body, const Start& start, const StepRule& rule, 
     forces.turn.setZero();
     forces.own.setZero();
   }
+}
+
+Matrix4 turn_slope(Rotation rotation, const StageForces& forces, const Vector3& T) {
+  Matrix4 slope = Matrix4::Zero();
+  if (rotation == Rotation::quaternion) {
+    // G(q)^T T = slope q, with which turn^T T = 2/|q|^2 G(q)^T T.
+    slope << 0, -T(0), -T(1), -T(2), T(0), 0, -T(2), T(1), T(1), T(2), 0, -T(0), T(2), -T(1), T(0), 0;
+    const double s = 2 * forces.by_position / forces.y.squaredNorm();
+    return s * (slope - (forces.turn.transpose() * T) * forces.y.transpose());
+  }
+  using Number = Eigen::AutoDiffScalar<Vector3>;
+  Unknowns<Number, 3> y;
+  for (int i = 0; i < 3; ++i) y(i) = Number(forces.y(i), forces.by_position * Vector3::Unit(i));
+  const Mat3<Number> turn = EulerRotation::matrix(y) * EulerRotation::rates(y);
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k)
+      for (int j = 0; j < 3; ++j) slope(i, k) += turn(j, i).derivatives()(k) * T(j);
+  return slope;
 }
 
 Vector3 torque_of(const Matrix3& lever, const Moments& moments) {

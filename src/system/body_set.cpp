@@ -156,9 +156,9 @@ void BodySet::write_block(std::size_t b, const Sums& sum, const Vector3& torque,
   bodies::Matrix34 by_torque;
   for (int k = 0; k < 4; ++k)
     by_torque.col(k) << m(3 * k + 1, 2) - m(3 * k + 2, 1), m(3 * k + 2, 0) - m(3 * k, 2), m(3 * k, 1) - m(3 * k + 1, 0);
-  bodies::Matrix4 by_own = forces.by_own + forces.turn.transpose() * by_torque;
-  for (int k = 0; k < n; ++k) by_own.col(k) += forces.by_turn[at(k)].transpose() * torque;
-  block.block<4, 4>(3, 3) += by_own;
+  if (n > 0)
+    block.block<4, 4>(3, 3) += forces.by_own + forces.turn.transpose() * by_torque +
+                               bodies::turn_slope(network_.bodies[b].properties.rotation, forces, torque);
   double* to = values + slot.offset;
   for (int i = 0; i < 3 + n; ++i, to += slot.stride) {
     if (slot.add)

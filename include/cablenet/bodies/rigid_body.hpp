@@ -1,6 +1,4 @@
 #pragma once
-#include <array>
-
 #include "cablenet/base/linear_algebra.hpp"
 
 /// A rigid body: the position X of its centre of gravity and its attitude, a quaternion q of four unknowns of which
@@ -85,13 +83,17 @@ struct StageForces {
   Matrix34 turn;   ///< a torque T, world frame, is the generalised force turn^T T on y
   Vector4 own;     ///< inertia, gyroscopic and gauge forces on y less the constant torque's
   Stacked by_lever = Stacked::Zero();
-  std::array<Matrix34, 4> by_turn{Matrix34::Zero(), Matrix34::Zero(), Matrix34::Zero(), Matrix34::Zero()};
   Matrix4 by_own = Matrix4::Zero();
+  Vector4 y = Vector4::Zero();   ///< of the stage
+  double by_position = 0;        ///< Seeds::position
 };
 
 /// @param seeds  none: values alone, the derivatives (by_...) stay as they are
 void evaluate(const Properties&, const Start&, const StepRule&, const RotationState& stage, const Seeds* seeds,
               StageMotion& motion, StageForces& forces);
+
+/// The derivative of turn^T T, T held, by the unknowns.
+Matrix4 turn_slope(Rotation, const StageForces&, const Vector3& torque);
 
 /// w at the end of a conserving step by its kinematics: 2 W - w0, dt W being the turn from q0 to q1.
 Vector3 end_by_turn(const Start&, double dt, const Vector4& y1);
