@@ -1,8 +1,12 @@
 """The scenes that are measured; dicts as the file would have them.  They end late: runs are cut with -ts_max_steps."""
+import math
 
 SPACING = 1.713 / 24   # m, an element of the free fall
 STEEL = {"area": 1.962e-5, "density": 7800, "youngs_modulus": 53e9}
 BRANCHES = 100
+ROPE = {"mass_per_length": 0.1, "axial_stiffness": 1.0e5}
+BODY = {"mass": 1, "inertia": [0.01, 0.02, 0.02]}
+ARM = 0.1   # m, from a body's centre to where a cable is attached
 
 
 def chain(elements, step, end=None, interval=None, scheme=None):
@@ -58,3 +62,59 @@ def net(meshes):
         "time": {"end": 100, "step": 0.01},
         "output": {"interval": 100},
     }
+
+
+def falling(points, bodies, cables):
+    """Ropes, point masses and bodies that are let go; without bodies there is no such key."""
+    return {
+        "environment": {"gravity": 9.81},
+        "cable_types": {"rope": ROPE},
+        "points": points,
+        **({"bodies": bodies} if bodies else {}),
+        "cables": cables,
+        "time": {"end": 100, "step": 1e-3, "scheme": "energy_momentum"},
+        "output": {"interval": 100},
+    }
+
+
+def rope(start, to, elements):
+    return {"type": "rope", "from": start, "to": to, "elements": elements}
+
+
+def loaded_chain(masses, elements, rigid):
+    """A level chain of cables of 1 m with a mass at each one's end: a body that the next goes on from, or a point."""
+    points, bodies, cables = {"pin": {"position": [0, 0, 0], "motion": "fixed"}}, {}, {}
+    start = "pin"
+    for i in range(masses):
+        name = f"m{i}"
+        if rigid:
+            attachments = {"in": [-ARM, 0, 0], **({"out": [ARM, 0, 0]} if i + 1 < masses else {})}
+            bodies[name] = {**BODY, "position": [(1 + 2 * ARM) * (i + 1) - ARM, 0, 0], "attachments": attachments}
+        else:
+            points[name] = {"position": [i + 1, 0, 0], "mass": BODY["mass"]}
+        cables[f"c{i}"] = rope(start, f"{name}.in" if rigid else name, elements)
+        start = f"{name}.out" if rigid else name
+    return falling(points, bodies, cables)
+
+
+def pendulums(masses, elements, rigid):
+    """Level cables of 1 m, each from a fixed point of its own to a body or a point mass."""
+    points, bodies, cables = {}, {}, {}
+    for i in range(masses):
+        pin, name = f"p{i}", f"m{i}"
+        points[pin] = {"position": [0, i, 0], "motion": "fixed"}
+        if rigid:
+            bodies[name] = {**BODY, "position": [1 + ARM, i, 0], "attachments": {"in": [-ARM, 0, 0]}}
+        else:
+            points[name] = {"position": [1, i, 0], "mass": BODY["mass"]}
+        cables[f"c{i}"] = rope(pin, f"{name}.in" if rigid else name, elements)
+    return falling(points, bodies, cables)
+
+
+def star(cables, elements):
+    """A body that hangs on cables from a ring of fixed points; it is as heavy as its cables are many."""
+    rays = [(math.cos(angle), math.sin(angle)) for angle in (2 * math.pi * i / cables for i in range(cables))]
+    body = {"mass": 0.2 * cables, "inertia": [0.002 * cables, 0.003 * cables, 0.004 * cables], "position": [0, 0, 0],
+            "attachments": {f"a{i}": [ARM * x, ARM * y, 0] for i, (x, y) in enumerate(rays)}}
+    points = {f"p{i}": {"position": [3 * x, 3 * y, 2], "motion": "fixed"} for i, (x, y) in enumerate(rays)}
+    return falling(points, {"hub": body}, {f"c{i}": rope(f"p{i}", f"hub.a{i}", elements) for i in range(cables)})
