@@ -120,6 +120,9 @@ Values evaluate_values(const Properties& body, const Start& start, double dt, co
   };
   [&]<int... k>(std::integer_sequence<int, k...>) { (differentiate.template operator()<k>(), ...); }
   (std::make_integer_sequence<int, 4>());
+  forces.y = stage.y;
+  forces.by_position = 1;
+  forces.by_own += turn_slope(Rotation::quaternion, forces, v.torque);
 }
 
 Vector3 end_by_turn(const Start& start, double dt, const Vector4& y1) {
