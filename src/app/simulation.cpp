@@ -223,6 +223,7 @@ private:
 
   std::string advice() const {
     if (is_singular_attitude()) return "Give the body rotation: quaternion, the default, which has no such attitude";
+    if (failed_.left_domain) return "Try a smaller time.step";
     return fmt::format("Try a smaller time.step or {}", time_.scheme == scene::Scheme::energy_momentum
                                                             ? "some axial_damping"
                                                             : "scheme: energy_momentum, or a smaller spectral_radius");

@@ -1,6 +1,7 @@
 #include "cablenet/bodies/rigid_body.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <unsupported/Eigen/AutoDiff>
 
 #include "cablenet/bodies/euler.hpp"
@@ -100,9 +101,8 @@ void copy_derivatives(const Maps<S, n>& from, StageMotion& motion, StageForces& 
 }
 
 template <class Way>
-[[gnu::flatten]] void evaluate_with(const Properties& body, const Start& start, const StepRule& rule,
-                                    const RotationState& stage, const Seeds* seeds, StageMotion& motion,
-                                    StageForces& forces) {
+void evaluate_with(const Properties& body, const Start& start, const StepRule& rule, const RotationState& stage,
+                   const Seeds* seeds, StageMotion& motion, StageForces& forces) {
   constexpr int n = Way::unknowns;
   if (seeds == nullptr) {
     const Motion<double, n> m{stage.y.head<n>(), stage.dy.head<n>(), stage.ddy.head<n>()};
@@ -122,6 +122,12 @@ template <class Way>
   forces.by_position = seeds->position;
 }
 
+/// Of roll, pitch, yaw; continuous in them.
+Quaternion by_angles(const Vector3& y) {
+  using Turn = Eigen::AngleAxisd;
+  return Turn(y(2), Vector3::UnitZ()) * Turn(y(1), Vector3::UnitY()) * Turn(y(0), Vector3::UnitX());
+}
+
 }   // namespace
 
 int rotation_unknowns(Rotation rotation) {
@@ -138,8 +144,9 @@ RotationState rotation_state(Rotation rotation, const Quaternion& attitude, cons
   }
   if (rotation == Rotation::euler) {
     const Matrix3 R = attitude.toRotationMatrix();
-    const Vector3 y(std::atan2(R(2, 1), R(2, 2)), -std::asin(std::clamp(R(2, 0), -1.0, 1.0)),
-                    std::atan2(R(1, 0), R(0, 0)));
+    Vector3 y(std::atan2(R(2, 1), R(2, 2)), -std::asin(std::clamp(R(2, 0), -1.0, 1.0)), std::atan2(R(1, 0), R(0, 0)));
+    // One turn of yaw changes the quaternion's sign alone.
+    if (by_angles(y).dot(attitude) < 0) y(2) += 2 * std::numbers::pi;
     state.y.head<3>() = y;
     state.dy.head<3>() = EulerRotation::rates<double>(y).inverse() * w;
   }
@@ -148,9 +155,8 @@ RotationState rotation_state(Rotation rotation, const Quaternion& attitude, cons
 
 Quaternion attitude(const Properties& body, const Vector4& y) {
   if (body.rotation == Rotation::quaternion) return Quaternion(y(0), y(1), y(2), y(3)).normalized();
-  if (body.rotation == Rotation::none) return Quaternion(body.attitude);
-  using Turn = Eigen::AngleAxisd;
-  return Turn(y(2), Vector3::UnitZ()) * Turn(y(1), Vector3::UnitY()) * Turn(y(0), Vector3::UnitX());
+  if (body.rotation == Rotation::none) return body.attitude;
+  return by_angles(y.head<3>());
 }
 
 Vector3 angular_velocity(Rotation rotation, const RotationState& state) {
@@ -164,7 +170,7 @@ double distance_from_singular(Rotation rotation, const Vector4& y) {
 }
 
 Start start_of(const Properties& body, const Vector4& y, const Vector4& dy) {
-  Start start{y, dy, body.attitude, angular_velocity(body.rotation, {y, dy, {}})};
+  Start start{y, dy, body.attitude.toRotationMatrix(), angular_velocity(body.rotation, {y, dy, {}})};
   if (body.rotation == Rotation::quaternion) start.R = QuaternionRotation::matrix<double>(y);
   if (body.rotation == Rotation::euler) start.R = EulerRotation::matrix<double>(y.head<3>());
   return start;
@@ -179,7 +185,7 @@ void evaluate(const Properties& body, const Start& start, const StepRule& rule, 
   else if (body.rotation == Rotation::euler)
     evaluate_with<EulerRotation>(body, start, rule, stage, seeds, motion, forces);
   else {
-    motion.place = body.attitude;
+    motion.place = body.attitude.toRotationMatrix();
     motion.velocity.setZero();
     motion.acceleration.setZero();
     forces.lever.setZero();

@@ -33,7 +33,7 @@ Body make_body(const scene::Body& body, Network& network) {
   const Matrix3 inertia = body.inertia.value_or(Matrix3::Zero());
   return {body.name,
           node,
-          {rotation, inertia, body.torque, body.attitude.toRotationMatrix()},
+          {rotation, inertia, body.torque, body.attitude},
           bodies::rotation_state(rotation, body.attitude, body.angular_velocity),
           static_cast<int>(network.carried.size()),
           0};

@@ -46,6 +46,7 @@ private:
   void set_end_velocities(std::size_t index);
   void set_velocities(std::size_t index);
   void set_end_velocity(std::size_t index, const scene::CableEnd& end, const Vector3& velocity);
+  void compare_velocity(std::size_t index, const scene::BodyEnd& end, const Vector3& velocity) const;
   void add_cable_elements(std::size_t index);
   void add_net_elements(std::size_t index);
   void check() const;
@@ -226,6 +227,7 @@ void Builder::set_velocities(std::size_t index) {
 
 /// A free end that drew no velocity of its own takes the cable's; a held one, and a tap's, keeps its own.
 void Builder::set_end_velocity(std::size_t index, const scene::CableEnd& end, const Vector3& velocity) {
+  if (const auto* body = std::get_if<scene::BodyEnd>(&end)) return compare_velocity(index, *body, velocity);
   const auto* point = std::get_if<scene::PointEnd>(&end);
   if (point == nullptr || prescribed_[at(point->point)]) return;
   Vector3& own = network_.velocity[at(point->point)];
@@ -234,6 +236,16 @@ void Builder::set_end_velocity(std::size_t index, const scene::CableEnd& end, co
     complain(scene_.cables[index],
              fmt::format("node_velocity: gives point {} another velocity than the point itself or another cable does",
                          scene_.points[at(point->point)].name));
+}
+
+void Builder::compare_velocity(std::size_t index, const scene::BodyEnd& end, const Vector3& velocity) const {
+  const Vector3& own = network_.velocity[at(attachment_nodes_[at(end.body)][at(end.attachment)])];
+  if ((own - velocity).norm() <= 1e-6 * std::max(own.norm(), velocity.norm())) return;
+  const scene::Body& body = scene_.bodies[at(end.body)];
+  complain(scene_.cables[index],
+           fmt::format("node_velocity: its row at {}.{} is not how the body moves there, ({:.6g}, {:.6g}, {:.6g}) m/s; "
+                       "correct it or the body's velocity and angular_velocity",
+                       body.name, body.attachments[at(end.attachment)].name, own.x(), own.y(), own.z()));
 }
 
 void Builder::add_cable_elements(std::size_t index) {

@@ -38,7 +38,7 @@ Dynamics::Dynamics(system::Assembler& assembler, const scene::Time& time, double
       schedule_(time.start, time.end, time.step, output_interval),
       scales_(assembler.force_scales()),
       tangent_(assembler.make_tangent()),
-      user_line_search_(has_option("-snes_linesearch_type")) {
+      user_line_search_(has_option("-snes_linesearch_type") || has_option("-snes_type")) {
   for (auto* vector : {&x_, &v_, &a_, &x0_, &v0_, &start_acceleration_}) *vector = assembler_.make_vector();
   assembler_.fill_initial(x_, v_);
   create_stepper();
@@ -161,8 +161,6 @@ bool Dynamics::step(double dt) {
   check(TSSetTime(stepper_, t));
   check(TSSetTimeStep(stepper_, dt));
   attempts_ = 0;
-  outside_domain_ = -1;
-  outside_body_ = -1;
   check(TSStep(stepper_));
   TSConvergedReason reason = TS_CONVERGED_ITERATING;
   check(TSGetConvergedReason(stepper_, &reason));

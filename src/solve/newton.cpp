@@ -95,7 +95,8 @@ PetscErrorCode Dynamics::predict(SNES, Vec x, void* self) noexcept {
 
 bool Dynamics::is_at_rounding(PetscInt iteration, double norm) {
   const double noise = scales_.rounding(furthest_, alpha_.shift_a()) / alpha_.alpha_f;
-  const bool is_retry = attempts_ > 1;
+  // A careful search cannot go below rounding, and would call that a failure.
+  const bool is_retry = attempts_ > 1 || (user_line_search_ && iteration > 0);
   const bool settled =
       convergence_.is_at_rounding(static_cast<int>(iteration), norm, noise, is_retry, reuse_.was_kept());
   if (iteration > 0) reuse_.note_correction(static_cast<int>(iteration), convergence_.contraction());
@@ -118,6 +119,7 @@ PetscErrorCode Dynamics::before_stage(TS ts, PetscReal) noexcept {
   PetscFunctionBeginUser;
   Dynamics* run = nullptr;
   PetscCall(TSGetApplicationContext(ts, &run));
+  run->outside_domain_ = run->outside_body_ = -1;
   if (!read_alpha_step(ts).is_start() && run->attempts_++ == 1) run->choose_line_search(true);
   PetscFunctionReturn(petsc::success);
 }

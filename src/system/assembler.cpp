@@ -173,7 +173,7 @@ bool Assembler::sweep_bodies(const Law& law, const Stage& stage, Access& access,
                                  return false;
                                }) &&
               in_domain;
-  add_links(network_, bodies_->link_starts(), conserves(stage) ? stage.alpha_f : 1, nodes, request, blocks);
+  add_links(network_, nodes, request, blocks);
   return in_domain;
 }
 

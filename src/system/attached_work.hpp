@@ -46,18 +46,17 @@ struct AttachedWork {
   }
 };
 
-/// Forces stiffness * gap, the gap being taken at the stage, or at start + (gap - start)/alpha_f.
-inline void add_links(const partition::LocalNetwork& network, const std::vector<Vector3>& starts, double alpha_f,
-                      const AnyNodes& nodes, const TangentRequest* request, const AttachedBlocks& blocks) {
+/// Forces stiffness * gap at the stage, which all schemes share: it is linear in positions.
+inline void add_links(const partition::LocalNetwork& network, const AnyNodes& nodes, const TangentRequest* request,
+                      const AttachedBlocks& blocks) {
   for (std::size_t i = 0; i < network.links.size(); ++i) {
     const auto& [node, stiffness] = network.links[i];
-    Vector3 gap = difference(nodes.x(node[1]), nodes.x(node[0]));
-    if (alpha_f != 1) gap = starts[i] + (gap - starts[i]) / alpha_f;
-    add_attached_force(network, nodes, node[0], -stiffness * gap);
-    add_attached_force(network, nodes, node[1], stiffness * gap);
+    const Vector3 force = stiffness * difference(nodes.x(node[1]), nodes.x(node[0]));
+    add_attached_force(network, nodes, node[0], -force);
+    add_attached_force(network, nodes, node[1], force);
     if (request == nullptr) continue;
-    const double slope = request->shift_x * stiffness / alpha_f;
-    blocks.write(node, request->matrix.link_slots()[i], {slope * Matrix3::Identity(), Matrix3::Zero(), 0, 0, false});
+    const Matrix3 slope = request->shift_x * stiffness * Matrix3::Identity();
+    blocks.write(node, request->matrix.link_slots()[i], {slope, Matrix3::Zero(), 0, 0, false});
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "cablenet/bodies/rotation.hpp"
 
@@ -21,8 +22,12 @@ bool is_in_domain(const bodies::Properties& body, const bodies::Start& start, co
                   const bodies::Vector4& y) {
   if (body.rotation == bodies::Rotation::none) return true;
   if (rule.conserving) return start.y.dot(y) > 0.5 * start.y.squaredNorm();
+  if (rule.dt == 0 || body.rotation != bodies::Rotation::euler) return y.allFinite();
   const bodies::Vector4 end = start.y + (y - start.y) / rule.alpha_f;
-  return bodies::distance_from_singular(body.rotation, rule.dt > 0 ? end : y) > least_cosine && y.allFinite();
+  // A step that goes further towards 90 degrees than half the way is too coarse for what happens there.
+  const double way = 0.5 * std::numbers::pi - std::abs(start.y(1));
+  return std::abs(end(1) - start.y(1)) < 0.5 * way + 0.02 &&
+         bodies::distance_from_singular(body.rotation, end) > least_cosine;
 }
 
 /// How a carried node's motion follows the attitude.
@@ -77,9 +82,6 @@ void BodySet::begin_step(const NodeData& data) {
       Map3(here.v) = Const3(nodes.v(body.node)) + starts_[b].R * w.cross(r);
     }
   }
-  link_starts_.clear();
-  for (const auto& [node, stiffness] : network_.links)
-    link_starts_.push_back(difference(nodes.x(node[1]), nodes.x(node[0])));
 }
 
 bool BodySet::place(const Stage& stage, bool conserving, const NodeData& data, const bodies::Seeds* seeds) {

@@ -35,8 +35,6 @@ public:
 
   /// Keeps the step's start, where it places the carried nodes.
   void begin_step(const NodeData& data);
-  /// Gaps of the links there [m].
-  const std::vector<Vector3>& link_starts() const { return link_starts_; }
   /// Sets the carried nodes' motion at the stage and clears their forces.
   /// @param seeds  with them, also carried_tangent()
   /// @returns false where a body has left its domain: outside() says which
@@ -72,7 +70,6 @@ private:
   const partition::LocalNetwork& network_;
   bool is_damped_;
   std::vector<bodies::Start> starts_;
-  std::vector<Vector3> link_starts_;
   std::vector<bodies::StageForces> forces_;
   std::vector<CarriedTangent> tangents_;
   std::vector<BodyBlock> blocks_;

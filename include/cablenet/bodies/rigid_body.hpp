@@ -25,9 +25,9 @@ using Matrix34 = Eigen::Matrix<double, 3, 4>;
 
 struct Properties {
   Rotation rotation = Rotation::none;
-  Matrix3 inertia = Matrix3::Zero();        ///< about the centre of gravity, body axes [kg m^2]
-  Vector3 torque = Vector3::Zero();         ///< constant, body axes [N m]
-  Matrix3 attitude = Matrix3::Identity();   ///< R of what does not turn
+  Matrix3 inertia = Matrix3::Zero();              ///< about the centre of gravity, body axes [kg m^2]
+  Vector3 torque = Vector3::Zero();               ///< constant, body axes [N m]
+  Quaternion attitude = Quaternion::Identity();   ///< of what does not turn
 };
 
 /// The attitude's unknowns and their first two derivatives; those that a body has not are zero.

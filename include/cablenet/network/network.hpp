@@ -49,8 +49,7 @@ struct CarriedNode {
   Vector3 offset;   ///< r from the centre of gravity, body axes [m]
 };
 
-/// The papers' massless stiff element: pulls a node and a carried one together by stiffness * distance; in the
-/// energy-momentum scheme by that at a step's end, lest its own vibration, which means nothing, live on.
+/// The papers' massless stiff element: pulls a node and a carried one together by stiffness * distance.
 /// Source: Tonin & Braun, CILAMCE 2020, eqs 19, 20.
 struct Link {
   std::array<int, 2> node;   ///< the cable's end, the carried node
