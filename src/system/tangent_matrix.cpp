@@ -201,8 +201,11 @@ TangentMatrix::TangentMatrix(const partition::LocalNetwork& network, bool symmet
   PetscBool chosen = PETSC_FALSE;
   check(PetscOptionsGetString(nullptr, nullptr, "-mat_type", type.data(), type.size(), &chosen));
   const std::string name = type.data();
-  if (chosen && name != MATAIJ && name != MATSEQAIJ && name != MATMPIAIJ)
-    check(MatConvert(aij_, name.c_str(), MAT_INITIAL_MATRIX, converted_.out()));
+  if (!chosen || name == MATAIJ || name == MATSEQAIJ || name == MATMPIAIJ) return;
+  // Some conversions take a distributed matrix apart, and its arrays with it.
+  Matrix copy;
+  check(MatDuplicate(aij_, MAT_COPY_VALUES, copy.out()));
+  check(MatConvert(copy, name.c_str(), MAT_INITIAL_MATRIX, converted_.out()));
 }
 
 std::array<double*, 2> TangentMatrix::open() {
@@ -219,13 +222,8 @@ void TangentMatrix::close() {
 void TangentMatrix::publish() {
   petsc::mark_changed(aij_);
   if (converted_ == nullptr) return;
-  MatType type = nullptr;
-  check(MatGetType(converted_, &type));
-  // Variants of AIJ are made anew by a conversion, and would lose what solvers hold.
-  if (std::string(type).find("aij") != std::string::npos && std::string(type).find("baij") == std::string::npos)
-    check(MatCopy(aij_, converted_, SAME_NONZERO_PATTERN));
-  else
-    check(MatConvert(aij_, type, MAT_REUSE_MATRIX, converted_.out()));
+  // A conversion would make variants of AIJ anew, and lose what solvers hold.
+  check(MatCopy(aij_, converted_, SAME_NONZERO_PATTERN));
 }
 
 void TangentMatrix::set_identity(double s) {

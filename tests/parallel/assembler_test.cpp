@@ -176,6 +176,23 @@ TEST_P(Assembler, CoincidentNodesAreNamed) {
   EXPECT_EQ(everywhere_.assembler.coincident_element(), -1);
 }
 
+TEST_P(Assembler, OtherTypesOfMatricesHoldTheSameTangent) {
+  begin(everywhere_);
+  const Field expected = tangent(everywhere_, state_);
+  for (const std::string type : {"baij", "dense", "aijperm"}) {
+    const Option option("-mat_type", type);
+    system::TangentMatrix matrix = everywhere_.assembler.make_tangent();
+    for (const double factor : {1.0, 2.0}) {
+      const double shift_a = factor * state_.shift_a;
+      everywhere_.assembler.tangent(state_.stage, everywhere_.vector(state_.x), everywhere_.vector(state_.v),
+                                    everywhere_.vector(state_.a), {matrix, state_.shift_v, shift_a});
+      const Field found = times_direction(everywhere_, state_, matrix);
+      const double error = size(difference(found, expected)) / size(expected);
+      EXPECT_EQ(error <= 1e-13, factor == 1) << type << ": " << error << " with a factor of " << factor;
+    }
+  }
+}
+
 /// The residual's own definition, from the elements' functions, where the force is PETSc's.
 TEST(AssemblerPlain, TheResidualIsTheElementsSum) {
   const network::Network network = network_of(branched);
