@@ -138,7 +138,6 @@ RotationState rotation_state(Rotation rotation, const Quaternion& attitude, cons
   RotationState state;
   if (rotation == Rotation::quaternion) {
     state.y << attitude.w(), attitude.vec();
-    state.dy << 0, 0, 0, 0;
     const Quaternion rate = attitude * Quaternion(0, 0.5 * w.x(), 0.5 * w.y(), 0.5 * w.z());
     state.dy << rate.w(), rate.vec();
   }
@@ -178,20 +177,17 @@ Start start_of(const Properties& body, const Vector4& y, const Vector4& dy) {
 
 void evaluate(const Properties& body, const Start& start, const StepRule& rule, const RotationState& stage,
               const Seeds* seeds, StageMotion& motion, StageForces& forces) {
-  if (rule.conserving)
-    evaluate_conserving(body, start, rule.dt, stage, seeds, motion, forces);
-  else if (body.rotation == Rotation::quaternion)
-    evaluate_with<QuaternionRotation>(body, start, rule, stage, seeds, motion, forces);
-  else if (body.rotation == Rotation::euler)
-    evaluate_with<EulerRotation>(body, start, rule, stage, seeds, motion, forces);
-  else {
-    motion.place = body.attitude.toRotationMatrix();
-    motion.velocity.setZero();
-    motion.acceleration.setZero();
-    forces.lever.setZero();
-    forces.turn.setZero();
-    forces.own.setZero();
-  }
+  if (rule.conserving) return evaluate_conserving(body, start, rule.dt, stage, seeds, motion, forces);
+  if (body.rotation == Rotation::quaternion)
+    return evaluate_with<QuaternionRotation>(body, start, rule, stage, seeds, motion, forces);
+  if (body.rotation == Rotation::euler)
+    return evaluate_with<EulerRotation>(body, start, rule, stage, seeds, motion, forces);
+  motion.place = body.attitude.toRotationMatrix();
+  motion.velocity.setZero();
+  motion.acceleration.setZero();
+  forces.lever.setZero();
+  forces.turn.setZero();
+  forces.own.setZero();
 }
 
 Matrix4 turn_slope(Rotation rotation, const StageForces& forces, const Vector3& T) {

@@ -91,7 +91,7 @@ bool BodySet::place(const Stage& stage, bool conserving, const NodeData& data, c
   for (std::size_t b = 0; b < forces_.size(); ++b) {
     const partition::LocalBody& body = network_.bodies[b];
     const bool turns_freely = body.properties.rotation == bodies::Rotation::quaternion;
-    const bodies::StepRule rule{stage.dt > 0 ? stage.alpha_f : 1, stage.dt, conserving && turns_freely && stage.dt > 0};
+    const bodies::StepRule rule{stage.dt > 0 ? stage.alpha_f : 1, stage.dt, conserving && turns_freely};
     const bodies::RotationState state = rotation(b, data);
     if (!is_in_domain(body.properties, starts_[b], rule, state.y)) outside_ = static_cast<int>(b);
     const bool gets_tangent = seeds != nullptr && unknowns(b) > 0;

@@ -102,6 +102,14 @@ TEST_P(RigidBodyRotation, StateHoldsAttitudeAndAngularVelocity) {
   EXPECT_LE((angular_velocity(GetParam(), s) - w).norm(), 1e-14);
 }
 
+TEST_P(RigidBodyRotation, TheQuaternionsSignIsTheOneGiven) {
+  for (const double sign : {1.0, -1.0}) {
+    const Quaternion given(Eigen::Vector4d(sign * tilted.coeffs()));
+    const RotationState s = rotation_state(GetParam(), given, Vector3::Zero());
+    EXPECT_LE((attitude(body(GetParam()), s.y).coeffs() - given.coeffs()).norm(), 1e-14);
+  }
+}
+
 /// R' = R skew(w), and the acceleration of an attachment is the second derivative of its place.
 TEST_P(RigidBodyRotation, AttachmentsMoveAsTheAttitudeTurns) {
   const Properties p = body(GetParam());

@@ -72,7 +72,7 @@ private:
   struct Starts;
   struct Access;
 
-  bool conserves(const Stage& stage) const { return rule_.scheme == scene::Scheme::energy_momentum && stage.dt > 0; }
+  bool conserves(const Stage& stage) const;
 
   void start_prescribed(double t);
   void add_work(const Stage& stage);
