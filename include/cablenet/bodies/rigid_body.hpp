@@ -29,6 +29,8 @@ struct Properties {
   Matrix3 inertia = Matrix3::Zero();              ///< about the centre of gravity, body axes [kg m^2]
   Vector3 torque = Vector3::Zero();               ///< constant, body axes [N m]
   Quaternion attitude = Quaternion::Identity();   ///< of what does not turn
+  Vector3 linear_drag = Vector3::Zero();          ///< against turning, body axes [N m s]
+  Vector3 quadratic_drag = Vector3::Zero();       ///< [N m s^2]
 };
 
 /// The attitude's unknowns and their first two derivatives; those that a body has not are zero.

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,11 @@ struct Body {
   Vector3 torque = Vector3::Zero();               ///< constant, body axes [N m]
   std::vector<Attachment> attachments;
   Rotation rotation = Rotation::quaternion;
+  double volume = 0;                              ///< [m^3]
+  Vector3 center_of_buoyancy = Vector3::Zero();   ///< from the centre of gravity, body axes [m]
+  std::array<double, 6> linear_drag{};            ///< along and about the body axes [N s/m], [N m s]
+  std::array<double, 6> quadratic_drag{};         ///< [N s^2/m^2], [N m s^2]
+  std::array<double, 6> added_mass{};             ///< [kg], [kg m^2]
   std::optional<double> link_stiffness;   ///< EA of the links between cables and body [N]; none: cables end on the body
 };
 

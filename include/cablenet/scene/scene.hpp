@@ -6,8 +6,11 @@
 #include <vector>
 
 #include "cablenet/base/linear_algebra.hpp"
+#include "cablenet/environment/bed.hpp"
+#include "cablenet/environment/water.hpp"
 #include "cablenet/scene/body.hpp"
 #include "cablenet/scene/motion.hpp"
+#include "cablenet/scene/time.hpp"
 
 /// What the user asked for, as plain data in SI units; `repeat` is expanded, names are resolved to indices.
 /// scene/read.hpp makes it from a file.
@@ -21,6 +24,11 @@ struct CableType {
   double axial_damping = 0;        ///< force per strain rate [N s]
   double rayleigh_mass = 0;        ///< [1/s]
   double rayleigh_stiffness = 0;   ///< [s]
+  double area = 0;                 ///< displaced cross-section [m^2]; 0: not needed
+  double diameter = 0;             ///< for drag and bed [m]; 0: not needed
+  double normal_drag = 0;          ///< Cdn
+  double tangential_drag = 0;      ///< Cdt
+  double added_mass = 0;           ///< Ca
 };
 
 struct Point {
@@ -31,6 +39,9 @@ struct Point {
   double mass = 0;                      ///< [kg]
   Vector3 force = Vector3::Zero();      ///< constant [N], world frame
   std::optional<Motion> motion;         ///< none: the point is free
+  double volume = 0;                    ///< [m^3]
+  double drag_area = 0;                 ///< Cd A [m^2]
+  double added_mass = 0;                ///< [kg]
 };
 
 struct PointEnd {
@@ -77,40 +88,20 @@ struct Net {
   std::vector<Edge> fixed;
 };
 
-enum class Scheme { energy_momentum, generalized_alpha, plain };
-
-struct Time {
-  double start = 0;
-  double end = 0;
-  double step = 0;
-  Scheme scheme = Scheme::energy_momentum;
-  double spectral_radius = 1;     ///< meant for generalized_alpha and plain; 1 for energy_momentum
-  double axial_dissipation = 0;   ///< xi of energy_momentum: 0 where the scene names the scheme, else 0.05
-};
-
-enum class HistoryKind { point, cable, body };
-
-struct HistoryItem {
-  HistoryKind kind;
-  int index;   ///< into Scene::points, cables or bodies
-};
-
-struct Output {
-  double interval = 0;   ///< s between frames; 0: every step
-  std::vector<HistoryItem> history;
-  bool energy = false;
-};
-
 struct Scene {
   std::string file;
   std::string text;   ///< the file as read
   std::string title;
-  double gravity = 9.80665;   ///< [m/s^2] along -z
+  double gravity = 9.80665;                  ///< [m/s^2] along -z
+  std::optional<environment::Fluid> fluid;   ///< none: vacuum
+  std::optional<environment::Bed> bed;       ///< none: no contact
   std::vector<CableType> cable_types;
   std::vector<Point> points;
   std::vector<Body> bodies;
   std::vector<Cable> cables;
   std::vector<Net> nets;
+  bool is_static = false;       ///< no `time`: the equilibrium is the result
+  bool starts_static = false;   ///< from the equilibrium under the loads at time.start; true where is_static
   Time time;
   Output output;
   std::vector<std::string> notes;   ///< what is allowed but perhaps not meant: "file:line: key: text"

@@ -1,0 +1,33 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+/// How a scene goes through time, and what it writes.
+namespace cablenet::scene {
+
+enum class Scheme { energy_momentum, generalized_alpha, plain };
+
+struct Time {
+  double start = 0;
+  double end = 0;
+  double step = 0;
+  Scheme scheme = Scheme::energy_momentum;
+  double spectral_radius = 1;        ///< meant for generalized_alpha and plain; 1 for energy_momentum
+  double axial_dissipation = 0;      ///< xi of energy_momentum: 0 where the scene names the scheme, else 0.05
+  std::optional<double> tolerance;   ///< local error a step [m]: the step is adaptive
+};
+
+enum class HistoryKind { point, cable, body };
+
+struct HistoryItem {
+  HistoryKind kind;
+  int index;   ///< into Scene::points, cables or bodies
+};
+
+struct Output {
+  double interval = 0;   ///< s between frames; 0: every step
+  std::vector<HistoryItem> history;
+  bool energy = false;
+};
+
+}   // namespace cablenet::scene
