@@ -11,9 +11,10 @@
 ///   elevation   a cos(theta)
 ///   horizontal  a omega cosh(k (z' + depth))/sinh(k depth) cos(theta),  vertical the same with sinh and sin
 /// (deep water: e^(k z')), accelerations their time derivatives; the dynamic pressure's gradient is -rho times the
-/// acceleration. Above the still surface the kinematics are those at it (vertical stretching). Components and current
-/// add up. Source: Dean & Dalrymple, Water Wave Mechanics for Engineers and Scientists (1991), ch. 3, 4.  Tests:
-/// tests/unit/water_test.cpp
+/// acceleration.  Above the still surface the kinematics are those at it (vertical stretching), below the bed those at
+/// the bed.  Components and current add up.
+/// Source: Dean & Dalrymple, Water Wave Mechanics for Engineers and Scientists (1991), ch. 3, 4.
+/// Tests: tests/unit/water_test.cpp
 namespace cablenet::environment {
 
 struct CurrentLayer {
@@ -38,10 +39,16 @@ struct Fluid {
 
   /// The current depends on the height, or there are waves.
   bool varies() const { return current.size() > 1 || !waves.empty(); }
+  /// The free surface stays this close to the still one.  [m]
+  double reach() const {
+    double sum = 0;
+    for (const Wave& wave : waves) sum += wave.amplitude;
+    return sum;
+  }
 };
 
 /// k > 0 of omega^2 = g k tanh(k depth).  [1/m]
-/// @param depth [m], > 0   @param gravity [m/s^2], > 0
+/// @param frequency [rad/s], > 0   @param depth [m], > 0   @param gravity [m/s^2], > 0
 double wave_number(double frequency, double depth, double gravity);
 
 /// Velocity and acceleration of the water at a place, and their derivatives by it.
@@ -67,10 +74,11 @@ struct Wetness {
   double by_extent;   ///< by its vertical extent [1/m]
 };
 /// Of a straight piece of a cable, of vertical extent h >= 0 and diameter d, whose middle is q below the surface: the
-/// mean over the piece of the smooth step s^2 (3 - 2 s), s = depth/d + 1/2 between 0 and 1. For h >> d the exact wetted
-/// length, differentiable everywhere.
+/// mean over the piece of the smooth step s^2 (3 - 2 s), s = depth/d + 1/2 between 0 and 1.  For h >> d the exact
+/// wetted length, differentiable everywhere.
 Wetness piece_wetness(double q, double h, double d);
-/// Of a sphere: the spherical cap's volume, s^2 (3 - 2 s) with s = q/(2 r) + 1/2.
+/// Of a sphere of radius r: the spherical cap's volume, s^2 (3 - 2 s) with s = q/(2 r) + 1/2.  A point, r = 0, is wet
+/// or dry.
 Wetness sphere_wetness(double q, double r);
 
 }   // namespace cablenet::environment

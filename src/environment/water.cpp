@@ -1,0 +1,124 @@
+#include "cablenet/environment/water.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cablenet::environment {
+namespace {
+
+/// cosh(k (z' + depth))/sinh(k depth), sinh(...)/sinh(...), and k where they vary with z'.
+struct Decay {
+  double horizontal, vertical, by_z;
+};
+
+/// Beyond this many 1/k a wave's part is below the rounding of what it is at the surface.
+constexpr double negligible = 40;
+
+Decay decay(double k, double depth, double z) {
+  const double below = std::clamp(z, -depth, 0.0), fall = std::exp(k * below), by_z = z == below && z < 0 ? k : 0;
+  const double twice = 2 * k * (below + depth);
+  if (twice > negligible) return {fall, fall, by_z};
+  // sinh's difference of exponentials would lose digits in shallow water.
+  const double scale = -fall / std::expm1(-2 * k * depth), difference = -std::expm1(-twice);
+  return {scale * (2 - difference), scale * difference, by_z};
+}
+
+double angle(const Wave& wave, const Vector3& x, double t) {
+  return wave.number * wave.direction.dot(x.head<2>()) - wave.frequency * t + wave.phase;
+}
+
+/// (horizontal c along the wave, vertical s upwards), c' = -s and s' = c by the wave's angle.
+void add_orbit(const Wave& wave, const Decay& decay, double c, double s, Vector3& value, Matrix3& slope) {
+  const Vector3 along(wave.direction.x(), wave.direction.y(), 0);
+  const Vector3 by_x = wave.number * along;
+  value += decay.horizontal * c * along;
+  value.z() += decay.vertical * s;
+  slope -= decay.horizontal * s * along * by_x.transpose();
+  slope.row(2) += decay.vertical * c * by_x.transpose();
+  slope.col(2) += decay.by_z * decay.vertical * c * along;
+  slope(2, 2) += decay.by_z * decay.horizontal * s;
+}
+
+void add_current(const std::vector<CurrentLayer>& current, double z, WaterMotion& motion) {
+  const auto above = std::upper_bound(current.begin(), current.end(), z,
+                                      [](double height, const CurrentLayer& layer) { return height < layer.z; });
+  if (above == current.begin()) {
+    motion.velocity = above->velocity;
+    return;
+  }
+  const CurrentLayer& below = *(above - 1);
+  motion.velocity = below.velocity;
+  if (above == current.end()) return;
+  motion.velocity_slope.col(2) = (above->velocity - below.velocity) / (above->z - below.z);
+  motion.velocity += (z - below.z) * motion.velocity_slope.col(2);
+}
+
+/// s^2 (3 - 2 s).
+double smooth_step(double s) { return s * s * (3 - 2 * s); }
+
+/// The smooth step's mean over s - h/2 .. s + h/2, by_depth and by_extent being by s and h.
+/// @pre s <= 1/2: where a difference of two nearly equal numbers would be in need, the piece is long
+Wetness dry_half(double s, double h) {
+  const double low = s - 0.5 * h, high = s + 0.5 * h;
+  if (high <= 0) return {0, 0, 0};
+  if (low >= 0)
+    return {smooth_step(s) + 0.25 * (1 - 2 * s) * h * h, 6 * s * (1 - s) - 0.5 * h * h, 0.5 * (1 - 2 * s) * h};
+  const bool across = high > 1;
+  const double top = across ? 1 : smooth_step(high);
+  const double mean = (across ? high - 0.5 : high * high * high * (1 - 0.5 * high)) / h;
+  return {mean, top / h, (0.5 * top - mean) / h};
+}
+
+}   // namespace
+
+double wave_number(double frequency, double depth, double gravity) {
+  const double y = frequency * frequency * depth / gravity;
+  // Within 5 % everywhere: Eckart, Surface Waves on Water of Variable Depth (1951).
+  double x = y / std::sqrt(std::tanh(y));
+  for (int i = 0; i < 20; ++i) {
+    const double tanh = std::tanh(x), step = (x * tanh - y) / (tanh + x * (1 - tanh * tanh));
+    x -= step;
+    if (std::abs(step) < 1e-15 * x) break;
+  }
+  return x / depth;
+}
+
+WaterMotion water_motion(const Fluid& fluid, const Vector3& x, double t) {
+  WaterMotion motion;
+  if (!fluid.current.empty()) add_current(fluid.current, x.z(), motion);
+  for (const Wave& wave : fluid.waves) {
+    const double z = x.z() - *fluid.surface, k = wave.number;
+    if (k * std::min(-z, fluid.depth) > negligible) continue;
+    const Decay at = decay(k, fluid.depth, z);
+    const double theta = angle(wave, x, t), omega = wave.frequency;
+    const double c = wave.amplitude * omega * std::cos(theta), s = wave.amplitude * omega * std::sin(theta);
+    add_orbit(wave, at, c, s, motion.velocity, motion.velocity_slope);
+    add_orbit(wave, at, omega * s, -omega * c, motion.acceleration, motion.acceleration_slope);
+  }
+  return motion;
+}
+
+SurfaceHeight surface_height(const Fluid& fluid, const Vector3& x, double t) {
+  SurfaceHeight height{*fluid.surface, Vector3::Zero()};
+  for (const Wave& wave : fluid.waves) {
+    const double theta = angle(wave, x, t);
+    height.z += wave.amplitude * std::cos(theta);
+    height.slope.head<2>() -= wave.amplitude * wave.number * std::sin(theta) * wave.direction;
+  }
+  return height;
+}
+
+Wetness piece_wetness(double q, double h, double d) {
+  Wetness wet = dry_half(0.5 - std::abs(q) / d, h / d);
+  // What is dry of a piece as far on the other side is wet of this one.
+  if (q > 0) wet = {1 - wet.fraction, wet.by_depth, -wet.by_extent};
+  return {wet.fraction, wet.by_depth / d, wet.by_extent / d};
+}
+
+Wetness sphere_wetness(double q, double r) {
+  if (std::abs(q) >= r) return {q > 0 ? 1.0 : 0.0, 0, 0};
+  const double s = 0.5 + 0.5 * q / r;
+  return {smooth_step(s), 3 * s * (1 - s) / r, 0};
+}
+
+}   // namespace cablenet::environment
