@@ -8,8 +8,8 @@
 /// waves' pressure gradient, per unstretched length, integrated with two Gauss points.
 /// With e = d/l, u and w the water's velocity and acceleration less the cable's, un = u - e (e.u), ut = e.u:
 ///   p = wet [ 1/2 rho Cdn d |un| un + 1/2 rho Cdt pi d |ut| ut e + rho A Ca (w - e (e.w)) + rho A (g ez + a_water) ]
-/// where wet is the wetted fraction of the half element around the Gauss point (1 without a surface).  The added mass
-/// matrix is thus consistent, as the cable's own.
+/// where wet is the wetted fraction of the half element around the Gauss point, under the water's height there (1
+/// without a surface).  The added mass matrix is thus consistent, as the cable's own.
 /// Source: Morison et al., Petroleum Trans. AIME 189 (1950) 149; MoorDyn's documentation for cables.
 /// Tests: tests/unit/cable_in_water_test.cpp
 namespace cablenet::elements {
@@ -54,6 +54,7 @@ struct VaryingWater {
   double gravity;   ///< [m/s^2]
 };
 
+/// In cable_in_water_loads.hpp.
 /// @param L unstretched length [m]   @returns loads; without tangent `by` is not set
 template <bool with_tangent, class Water>
 EndLoads water_loads(const CableInWater&, double L, const EndMotion&, const Water&, const Follow&);
