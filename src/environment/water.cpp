@@ -29,13 +29,12 @@ double angle(const Wave& wave, const Vector3& x, double t) {
 
 /// (horizontal c along the wave, vertical s upwards), c' = -s and s' = c by the wave's angle.
 void add_orbit(const Wave& wave, const Decay& decay, double c, double s, Vector3& value, Matrix3& slope) {
-  const Vector3 along(wave.direction.x(), wave.direction.y(), 0);
-  const Vector3 by_x = wave.number * along;
-  value += decay.horizontal * c * along;
+  const Eigen::Vector2d along = decay.horizontal * wave.direction, by_x = wave.number * wave.direction;
+  value.head<2>() += c * along;
   value.z() += decay.vertical * s;
-  slope -= decay.horizontal * s * along * by_x.transpose();
-  slope.row(2) += decay.vertical * c * by_x.transpose();
-  slope.col(2) += decay.by_z * decay.vertical * c * along;
+  slope.topLeftCorner<2, 2>() -= along * (s * by_x).transpose();
+  slope.bottomLeftCorner<1, 2>() += decay.vertical * c * by_x.transpose();
+  slope.topRightCorner<2, 1>() += decay.by_z * decay.vertical * c * wave.direction;
   slope(2, 2) += decay.by_z * decay.horizontal * s;
 }
 

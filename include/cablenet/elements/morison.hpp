@@ -7,23 +7,27 @@
 /// cable_in_water.hpp.
 namespace cablenet::elements {
 
-/// a I + b e e^T + c n n^T.
-inline Matrix3 diagonal_and_axes(double a, double b, const Vector3& e, double c, const Vector3& n) {
-  Matrix3 m = b * e * e.transpose();
-  m += c * n * n.transpose();
-  m.diagonal().array() += a;
-  return m;
-}
-
-/// A line load [N/m] and its derivatives by the chord and by the unknowns of the point on it.
-struct LineLoad {
-  Vector3 p;
-  Matrix3 by_chord, by_point;
+/// A derivative a I + e q^T + c M of a line load on a cable along e, M = LineLoad::M.
+struct LineSlope {
+  double a;
+  Vector3 q;
+  double c;
 };
 
-/// Drag and added mass on a wet cable along e.
+/// A line load [N/m] and, with tangent, its derivatives by the unknowns of chord and point.
+struct LineLoad {
+  Vector3 p;
+  Matrix3 M;         ///< un un^T/|un| [m/s]
+  LineSlope chord;   ///< as e turns
+  LineSlope point;   ///< as the point gets velocity and acceleration
+  // Of water that varies:
+  Matrix3 by_place;   ///< as the point finds other water at another place
+  Vector3 by_rise;    ///< by the chord's z
+};
+
+/// u, w along the cable and across it.
 struct CrossFlow {
-  double ut, wt, speed;   ///< along the cable; |un|
+  double ut, wt, speed;   ///< speed: |un|
   Vector3 un, wn;
   CrossFlow(const Vector3& e, const Vector3& u, const Vector3& w)
       : ut(e.dot(u)), wt(e.dot(w)), un(u - ut * e), wn(w - wt * e) {
@@ -32,58 +36,56 @@ struct CrossFlow {
   Vector3 load(const CableInWater& c, const Vector3& e) const {
     return c.normal_drag * speed * un + c.tangential_drag * std::abs(ut) * ut * e + c.added * wn;
   }
-  Vector3 direction() const { return speed > 0 ? Vector3(1 / speed * un) : Vector3(Vector3::Zero()); }
-  /// By e, turning only.
-  Matrix3 by_axis(const CableInWater& c, const Vector3& e) const {
-    const double along = c.tangential_drag * std::abs(ut), across = c.normal_drag * speed;
-    const double turning = (along - across) * ut - c.added * wt;
-    Matrix3 m = diagonal_and_axes(turning, -turning, e, -across * ut, direction());
-    m += e * ((2 * along - across) * un - c.added * wn).transpose();
-    return m;
+  Matrix3 M() const {
+    const double inverse = speed > 0 ? 1 / speed : 0;
+    return (inverse * un).lazyProduct(un.transpose());
   }
-  /// drag times that by u + added times that by w.
-  Matrix3 by_flow(const CableInWater& c, const Vector3& e, double drag, double added) const {
-    const double across = drag * c.normal_drag * speed, along = 2 * drag * c.tangential_drag * std::abs(ut);
-    const double normal = across + added * c.added;
-    return diagonal_and_axes(normal, along - normal, e, across, direction());
+  /// scale times the derivative by e; e keeps its length.
+  LineSlope by_axis(const CableInWater& c, const Vector3& e, double scale) const {
+    const double along = c.tangential_drag * std::abs(ut), across = c.normal_drag * speed;
+    const double turning = scale * ((along - across) * ut - c.added * wt);
+    return {turning, scale * ((2 * along - across) * un - c.added * wn) - turning * e, -scale * c.normal_drag * ut};
+  }
+  /// drag times the derivative by u and added times that by w.
+  LineSlope by_flow(const CableInWater& c, const Vector3& e, double drag, double added) const {
+    const double across = drag * c.normal_drag * speed + added * c.added;
+    return {across, (2 * drag * c.tangential_drag * std::abs(ut) - across) * e, drag * c.normal_drag};
   }
 };
 
-/// An element's chord.
-struct Chordwise {
-  Vector3 e;
-  double l;   ///< [m]
-  double dz;
-};
+/// v chord + w point.
+inline LineSlope sum(double v, const LineSlope& chord, double w, const LineSlope& point) {
+  return {v * chord.a + w * point.a, v * chord.q + w * point.q, v * chord.c + w * point.c};
+}
+
+/// Of what is dry.
+inline LineLoad no_line_load() {
+  const Vector3 zero = Vector3::Zero();
+  const LineSlope none{0, zero, 0};
+  return {zero, Matrix3::Zero(), none, none, Matrix3::Zero(), zero};
+}
 
 template <bool with_tangent>
-LineLoad wet_line_load(const CableInWater& c, const Chordwise& chord, const Vector3& v, const Vector3& a,
-                       const UniformWater& water, const Follow& f) {
-  const CrossFlow flow(chord.e, water.velocity - v, -a);
+LineLoad wet_line_load(const CableInWater& c, const Vector3& e, double l, const CrossFlow& flow, const Follow& f) {
   LineLoad load;
-  load.p = flow.load(c, chord.e);
-  load.p.z() += c.displaced * water.gravity;
+  load.p = flow.load(c, e);
   if constexpr (with_tangent) {
-    load.by_chord = f.x / chord.l * flow.by_axis(c, chord.e);
-    load.by_point = flow.by_flow(c, chord.e, -f.v, -f.a);
+    load.M = flow.M();
+    load.chord = flow.by_axis(c, e, f.x / l);
+    load.point = flow.by_flow(c, e, -f.v, -f.a);
   }
   return load;
 }
 
-template <bool with_tangent>
-LineLoad wet_line_load(const CableInWater& c, const Chordwise& chord, const Vector3& v, const Vector3& a,
-                       const environment::WaterMotion& water, double gravity, const Follow& f) {
-  const CrossFlow flow(chord.e, water.velocity - v, water.acceleration - a);
-  LineLoad load;
-  load.p = flow.load(c, chord.e) + c.displaced * water.acceleration;
-  load.p.z() += c.displaced * gravity;
-  if constexpr (with_tangent) {
-    load.by_chord = f.x / chord.l * flow.by_axis(c, chord.e);
-    load.by_point = flow.by_flow(c, chord.e, -f.v, -f.a) + f.x * c.displaced * water.acceleration_slope;
-    load.by_point += flow.by_flow(c, chord.e, f.x, 0) * water.velocity_slope;
-    load.by_point += flow.by_flow(c, chord.e, 0, f.x) * water.acceleration_slope;
-  }
-  return load;
+/// The derivative by the place, times f, of the load that the flow exerts.
+inline Matrix3 by_place(const CableInWater& c, const Vector3& e, const CrossFlow& flow, const Matrix3& M,
+                        const environment::WaterMotion& water, double f) {
+  const LineSlope by_u = flow.by_flow(c, e, f, 0);
+  Matrix3 drag = by_u.c * M + e.lazyProduct(by_u.q.transpose());
+  drag.diagonal().array() += by_u.a;
+  const Vector3 along = f * c.added * (water.acceleration_slope.transpose() * e);
+  return drag.lazyProduct(water.velocity_slope) + f * (c.displaced + c.added) * water.acceleration_slope -
+         e.lazyProduct(along.transpose());
 }
 
 }   // namespace cablenet::elements
