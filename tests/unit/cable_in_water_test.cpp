@@ -1,8 +1,9 @@
+#include "cablenet/elements/cable_in_water_loads.hpp"
+
 #include <gtest/gtest.h>
 
-#include <functional>
-
-#include "cablenet/elements/cable_in_water_loads.hpp"
+#include <cmath>
+#include <cstdlib>
 
 namespace cablenet::elements {
 namespace {
@@ -13,10 +14,15 @@ const CableInWater rope{4.0, 3.1, 55.0, 2.5, 0.08};
 constexpr double L = 1.6, g = 9.81;
 const Follow follow{1, 40, 1700};
 
-EndMotion random_motion(double z, double spread = 1) {
+struct CableInWaterTest : testing::Test {
+  /// The same states whichever tests run.
+  void SetUp() override { std::srand(1); }
+};
+
+EndMotion random_motion(double z) {
   EndMotion m;
   for (int i : {0, 1}) {
-    m.x[i] = spread * Vector3::Random() + Vector3(0.3, -0.7, z);
+    m.x[i] = Vector3::Random() + Vector3(0.3, -0.7, z);
     m.v[i] = Vector3::Random();
     m.a[i] = 3 * Vector3::Random();
   }
@@ -61,23 +67,164 @@ Fluid sea() {
   return fluid;
 }
 
-TEST(CableInWater, TangentIsExactInUniformWater) {
+TEST_F(CableInWaterTest, TangentIsExactInUniformWater) {
   for (int n = 0; n < 20; ++n) {
     expect_exact_tangent(rope, random_motion(0), UniformWater{{0.9, -0.2, 0.3}, g}, follow, 1e-5);
     expect_exact_tangent(rope, random_motion(0), UniformWater{{0.9, -0.2, 0.3}, g}, {1, 0, 0}, 1e-4);
   }
 }
 
-TEST(CableInWater, TangentIsExactInWaves) {
+TEST_F(CableInWaterTest, TangentIsExactInWaves) {
   const Fluid fluid = sea();
   for (int n = 0; n < 20; ++n)
     expect_exact_tangent(rope, random_motion(-5), VaryingWater<false>{fluid, 0.7, g}, {1, 3, 11}, 1e-4);
 }
 
-TEST(CableInWater, TangentIsExactAcrossTheSurface) {
+TEST_F(CableInWaterTest, TangentIsExactAcrossTheSurface) {
   const Fluid fluid = sea();
-  for (int n = 0; n < 20; ++n)
-    expect_exact_tangent(rope, random_motion(0), VaryingWater<true>{fluid, 0.7, g}, {1, 3, 11}, 1e-5);
+  int partly_wet = 0;
+  for (int n = 0; n < 60; ++n) {
+    EndMotion m = random_motion(0.4);
+    if (n % 2 == 0)
+      // Nearly level: crossing with its diameter.
+      for (Vector3& x : m.x) x.z() = environment::surface_height(fluid, x, 0.7).z + 0.03 * (x.z() - 0.4);
+    expect_exact_tangent(rope, m, VaryingWater<true>{fluid, 0.7, g}, {1, 3, 11}, 1e-5);
+    const HalfWetness wet =
+        half_wetness(fluid, 0.7, 0.08, m.x[1].z() - m.x[0].z(), gauss_points[0], between(m.x, gauss_points[0].at));
+    partly_wet += wet.fraction > 0 && wet.fraction < 1;
+  }
+  EXPECT_GE(partly_wet, 30);
+}
+
+TEST_F(CableInWaterTest, TangentIsExactAtRestAlongTheFlowAndWithoutDrag) {
+  const CableInWater bare{4.0, 3.1, 0, 0, 0.08};
+  EndMotion m;
+  m.x = {Vector3(0, 0, 0), Vector3(L, 0, 0)};
+  m.v = {Vector3::Zero(), Vector3::Zero()};
+  m.a = {Vector3(1, 2, -1), Vector3(0, 3, 1)};
+  expect_exact_tangent(bare, m, UniformWater{Vector3::Zero(), g}, follow, 1e-5);
+  expect_exact_tangent(bare, random_motion(0), UniformWater{Vector3::Zero(), g}, follow, 1e-5);
+  for (const double along : {0.0, 0.8}) {
+    const EndLoads loads = water_loads<true>(rope, L, m, UniformWater{{along, 0, 0}, g}, follow);
+    for (int i : {0, 1})
+      for (int j : {0, 1}) EXPECT_TRUE(loads.by[i][j].allFinite());
+  }
+}
+
+/// All kinds of water agree where they describe the same.
+TEST_F(CableInWaterTest, UniformWaterIsVaryingWaterWithOneLayer) {
+  Fluid fluid;
+  fluid.surface = 50;
+  fluid.current = {{0, {0.9, -0.2, 0.3}}};
+  const EndMotion m = random_motion(0);
+  const EndLoads uniform = water_loads<true>(rope, L, m, UniformWater{{0.9, -0.2, 0.3}, g}, follow);
+  const EndLoads endless = water_loads<true>(rope, L, m, VaryingWater<false>{fluid, 0, g}, follow);
+  const EndLoads deep = water_loads<true>(rope, L, m, VaryingWater<true>{fluid, 0, g}, follow);
+  for (int i : {0, 1}) {
+    EXPECT_TRUE(endless.on[i].isApprox(uniform.on[i], 1e-14) && deep.on[i].isApprox(uniform.on[i], 1e-14));
+    for (int j : {0, 1})
+      EXPECT_TRUE(endless.by[i][j].isApprox(uniform.by[i][j], 1e-14) &&
+                  deep.by[i][j].isApprox(uniform.by[i][j], 1e-14));
+  }
+}
+
+EndMotion resting(const Vector3& x1, const Vector3& x2) {
+  const Vector3 zero = Vector3::Zero();
+  return {{x1, x2}, {zero, zero}, {zero, zero}};
+}
+
+const Follow still_follow{1, 0, 0};
+
+Vector3 total(const CableInWater& c, const EndMotion& m, const auto& water) {
+  const EndLoads loads = water_loads<false>(c, L, m, water, still_follow);
+  return loads.on[0] + loads.on[1];
+}
+
+TEST_F(CableInWaterTest, DragAcrossAndAlongTheFlow) {
+  const CableInWater weightless{0, 0, 55, 2.5, 0.08};
+  const UniformWater water{{1.5, 0, 0}, g};
+  EXPECT_TRUE(total(weightless, resting({0, 0, 0}, {0, L, 0}), water).isApprox(Vector3(55 * 2.25 * L, 0, 0), 1e-13));
+  EXPECT_TRUE(total(weightless, resting({0, 0, 0}, {L, 0, 0}), water).isApprox(Vector3(2.5 * 2.25 * L, 0, 0), 1e-13));
+  // At 60 degrees: un = 1.5 sin 60 across, ut = 1.5 cos 60 along; a stretched cable has no more of it.
+  const Vector3 e(0.5, 0, std::sqrt(0.75)), across(std::sqrt(0.75), 0, -0.5);
+  const Vector3 expected = 55 * 2.25 * 0.75 * L * across + 2.5 * 2.25 * 0.25 * L * e;
+  EXPECT_TRUE(total(weightless, resting(Vector3::Zero(), 1.2 * L * e), water).isApprox(expected, 1e-13));
+}
+
+TEST_F(CableInWaterTest, AddedMassIsConsistentAndActsAcrossAlone) {
+  const CableInWater light{0, 3.1, 0, 0, 0.08};
+  const Vector3 e = Vector3(2, -1, 2) / 3;
+  const Matrix3 across = Matrix3::Identity() - e * e.transpose();
+  const EndMotion m = resting({1, 0, 0}, Vector3(1, 0, 0) + 1.3 * L * e);
+  const EndLoads loads = water_loads<true>(light, L, m, UniformWater{Vector3::Zero(), g}, {1, 0, 1});
+  for (int i : {0, 1})
+    for (int j : {0, 1})
+      EXPECT_TRUE(loads.by[i][j].isApprox(-3.1 * L / 6 * (i == j ? 2 : 1) * across, 1e-13)) << i << j;
+  const Matrix3 sum = loads.by[0][0] + loads.by[0][1] + loads.by[1][0] + loads.by[1][1];
+  EXPECT_LE((sum * e).norm(), 1e-14);
+  EXPECT_TRUE(sum.isApprox(-3.1 * L * across, 1e-13));
+}
+
+TEST_F(CableInWaterTest, BuoyancyIsThatOfTheWettedLength) {
+  Fluid fluid;
+  fluid.surface = 0;
+  const VaryingWater<true> water{fluid, 0, g};
+  const CableInWater thin{4, 0, 0, 0, 1e-4 * L};
+  const double full = 4 * L * g;
+  EXPECT_NEAR(total(thin, resting({0, 0, -L / 2}, {0, 0, L / 2}), water).z(), full / 2, 1e-12);
+  EXPECT_NEAR(total(thin, resting({0, 0, 0.2 * L}, {0, 0, -0.8 * L}), water).z(), 0.8 * full, 1e-12);
+  EXPECT_NEAR(total(thin, resting({0, 0, -L}, {L, 0, -L}), water).z(), full, 1e-12);
+  EXPECT_EQ(total(thin, resting({0, 0, L}, {L, 0, L}), water).norm(), 0);
+  // Level: the smooth step at a quarter of the diameter.
+  EXPECT_NEAR(total(rope, resting({0, 0, -0.02}, {L, 0, -0.02}), water).z(), full * 0.75 * 0.75 * 1.5, 1e-12);
+  EXPECT_NEAR(total(rope, resting({0, 0, 0}, {L, 0, 0}), water).z(), full / 2, 1e-12);
+}
+
+TEST_F(CableInWaterTest, WavesPushWhatRests) {
+  Fluid fluid = sea();
+  fluid.current.clear();
+  fluid.waves.resize(1);
+  fluid.waves[0].direction = {1, 0};
+  const CableInWater dragless{4, 3.1, 0, 0, 0.08};
+  // Along the crest, so that the water's acceleration is one along the cable.
+  const EndMotion m = resting({0.5, 0, -4}, {0.5, L, -4});
+  const environment::WaterMotion motion = environment::water_motion(fluid, m.x[0], 0.7);
+  const Vector3 expected = L * (7.1 * motion.acceleration + Vector3(0, 0, 4 * g));
+  EXPECT_TRUE(total(dragless, m, VaryingWater<true>{fluid, 0.7, g}).isApprox(expected, 1e-13));
+}
+
+TEST_F(CableInWaterTest, LoadsTurnWithTheWorldAboutTheVertical) {
+  const Matrix3 turn = Eigen::AngleAxisd(0.83, Vector3::UnitZ()).toRotationMatrix();
+  const Fluid fluid = sea();
+  Fluid turned = fluid;
+  for (auto& layer : turned.current) layer.velocity = turn * layer.velocity;
+  for (auto& wave : turned.waves) wave.direction = turn.topLeftCorner<2, 2>() * wave.direction;
+  for (const double z : {-6.0, -0.5, 0.4}) {
+    const EndMotion m = random_motion(z);
+    EndMotion n = m;
+    for (auto* part : {&n.x, &n.v, &n.a})
+      for (Vector3& value : *part) value = turn * value;
+    const EndLoads loads = water_loads<true>(rope, L, m, VaryingWater<true>{fluid, 0.7, g}, follow);
+    const EndLoads after = water_loads<true>(rope, L, n, VaryingWater<true>{turned, 0.7, g}, follow);
+    for (int i : {0, 1}) {
+      EXPECT_LE((after.on[i] - turn * loads.on[i]).norm(), 1e-12 * (1 + loads.on[i].norm()));
+      for (int j : {0, 1})
+        EXPECT_LE((after.by[i][j] - turn * loads.by[i][j] * turn.transpose()).norm(),
+                  1e-12 * (1 + loads.by[i][j].norm()));
+    }
+  }
+}
+
+TEST_F(CableInWaterTest, ExchangingTheEndsExchangesTheLoads) {
+  const Fluid fluid = sea();
+  const EndMotion m = random_motion(0.2);
+  const EndMotion n{{m.x[1], m.x[0]}, {m.v[1], m.v[0]}, {m.a[1], m.a[0]}};
+  const EndLoads loads = water_loads<true>(rope, L, m, VaryingWater<true>{fluid, 0.7, g}, follow);
+  const EndLoads after = water_loads<true>(rope, L, n, VaryingWater<true>{fluid, 0.7, g}, follow);
+  for (int i : {0, 1}) {
+    EXPECT_TRUE(after.on[i].isApprox(loads.on[1 - i], 1e-12));
+    for (int j : {0, 1}) EXPECT_TRUE(after.by[i][j].isApprox(loads.by[1 - i][1 - j], 1e-12));
+  }
 }
 
 }   // namespace

@@ -32,8 +32,8 @@ inline HalfWetness half_wetness(const environment::Fluid& fluid, double t, doubl
   if (std::abs(still) >= fluid.reach() + 0.5 * (extent + diameter)) return {still > 0 ? 1.0 : 0.0};
   const environment::SurfaceHeight surface = environment::surface_height(fluid, x, t);
   const environment::Wetness wet = environment::piece_wetness(surface.z - z, extent, diameter);
-  return {wet.fraction, std::copysign(0.5 * wet.by_extent, dz) - to_middle * wet.by_depth,
-          wet.by_depth * (surface.slope - Vector3::UnitZ())};
+  const double by_length = dz < 0 ? -0.5 * wet.by_extent : 0.5 * wet.by_extent;
+  return {wet.fraction, by_length - to_middle * wet.by_depth, wet.by_depth * (surface.slope - Vector3::UnitZ())};
 }
 
 /// What is wet of a load on a wet cable.
