@@ -12,7 +12,7 @@
 ///   horizontal  a omega cosh(k (z' + depth))/sinh(k depth) cos(theta),  vertical the same with sinh and sin
 /// (deep water: e^(k z')), accelerations their time derivatives; the dynamic pressure's gradient is -rho times the
 /// acceleration.  Above the still surface the kinematics are those at it (vertical stretching), below the bed those at
-/// the bed.  Components and current add up.
+/// the bed.  Components and current add up, without Doppler shift.
 /// Source: Dean & Dalrymple, Water Wave Mechanics for Engineers and Scientists (1991), ch. 3, 4.
 /// Tests: tests/unit/water_test.cpp
 namespace cablenet::environment {

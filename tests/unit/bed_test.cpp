@@ -1,0 +1,61 @@
+#include "cablenet/environment/bed.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cablenet::environment {
+namespace {
+
+const Bed bed{-20, 3e5, 4e4, 0.6, 0.02};
+constexpr double area = 0.35, smoothing = 0.04;
+
+BedForce at(const Vector3& x, const Vector3& v) { return bed_force<false>(bed, area, smoothing, x, v); }
+
+TEST(BedForce, IsStiffnessTimesDepthBelowTheBedAndNothingAbove) {
+  EXPECT_NEAR(at({1, 2, -20.1}, Vector3::Zero()).force.z(), area * 3e5 * 0.1, 1e-8);
+  EXPECT_EQ(at({1, 2, -19.9}, {1, 2, -3}).force.norm(), 0);
+  EXPECT_NEAR(at({1, 2, -20}, Vector3::Zero()).force.z(), area * 3e5 * smoothing / 4, 1e-9);
+  EXPECT_NEAR(at({1, 2, -20.1}, {0, 0, -0.5}).force.z(), area * (3e5 * 0.1 + 4e4 * 0.5), 1e-8);
+}
+
+TEST(BedForce, IsContinuousWhereTheParabolaJoins) {
+  for (const double p : {-smoothing, smoothing}) {
+    const BedForce above = bed_force<true>(bed, area, smoothing, {0, 0, -20 - p + 1e-12}, {0.3, 0, 0});
+    const BedForce below = bed_force<true>(bed, area, smoothing, {0, 0, -20 - p - 1e-12}, {0.3, 0, 0});
+    EXPECT_LE((above.force - below.force).norm(), 1e-6);
+    EXPECT_LE((above.by_x - below.by_x).norm(), 1e-4);
+  }
+}
+
+TEST(BedForce, FrictionOpposesSlidingUpToCoulombs) {
+  const Vector3 x(0, 0, -20.1);
+  const double N = at(x, Vector3::Zero()).force.z();
+  EXPECT_TRUE(at(x, {3e5, -4e5, 0}).force.isApprox(Vector3(-0.6 * 0.6 * N, 0.8 * 0.6 * N, N), 1e-9));
+  EXPECT_NEAR(at(x, {0.02, 0, 0}).force.x(), -0.6 * N / std::sqrt(2), 1e-9 * N);
+  EXPECT_EQ(at(x, Vector3::Zero()).force.head<2>().norm(), 0);
+}
+
+TEST(BedForce, NoFrictionWhereDampingHoldsTheNodeBack) {
+  const Vector3 force = at({0, 0, -20.1}, {0.3, 0.2, 5}).force;
+  EXPECT_LT(force.z(), 0);
+  EXPECT_EQ(force.head<2>().norm(), 0);
+}
+
+TEST(BedForce, DerivativesAreThoseOfTheForce) {
+  const double h = 1e-6;
+  for (const double p : {-0.05, -0.03, 0.001, 0.03, 0.3})
+    for (const double rise : {-0.4, 0.0, 0.2, 30.0}) {
+      const Vector3 x(3, -1, bed.level - p), v(0.013, -0.021, rise);
+      const BedForce force = bed_force<true>(bed, area, smoothing, x, v);
+      EXPECT_EQ(force.force, at(x, v).force);
+      for (int k = 0; k < 3; ++k) {
+        const Vector3 step = h * Vector3::Unit(k);
+        const Vector3 by_x = (at(x + step, v).force - at(x - step, v).force) / (2 * h);
+        const Vector3 by_v = (at(x, v + step).force - at(x, v - step).force) / (2 * h);
+        EXPECT_LE((by_x - force.by_x.col(k)).norm(), 1e-7 * (1e3 + force.by_x.norm()));
+        EXPECT_LE((by_v - force.by_v.col(k)).norm(), 1e-7 * (1e3 + force.by_v.norm()));
+      }
+    }
+}
+
+}   // namespace
+}   // namespace cablenet::environment
