@@ -25,6 +25,23 @@ struct Motion {
 /// Of the gauge's frequency by the step.
 constexpr double gauge_rate = 0.1;
 
+double value_of(double number) { return number; }
+template <class Derivatives>
+double value_of(const Eigen::AutoDiffScalar<Derivatives>& number) {
+  return number.value();
+}
+
+bool has_drag(const Properties& body) { return (body.linear_drag + body.quadratic_drag).sum() > 0; }
+
+/// To the torque that keeps the motion up: what the water takes.
+template <class S>
+void add_drag(const Properties& body, const Vec3<S>& w, Vec3<S>& torque) {
+  for (int i = 0; i < 3; ++i) {
+    const double quadratic = value_of(w(i)) < 0 ? -body.quadratic_drag(i) : body.quadratic_drag(i);
+    torque(i) += (body.linear_drag(i) + quadratic * w(i)) * w(i);
+  }
+}
+
 template <class S>
 Vec3<S> cross(const Vec3<S>& a, const Vec3<S>& b) {
   return {a(1) * b(2) - a(2) * b(1), a(2) * b(0) - a(0) * b(2), a(0) * b(1) - a(1) * b(0)};
@@ -59,16 +76,11 @@ Maps<S, Way::unknowns> stage_maps(const Properties& body, const Start& start, co
   maps.acceleration = times_skew(t.R, t.dw) + times_skew(swept, t.w);
   maps.lever = t.R;
   maps.turn = t.R * t.rates;
-  const Vec3<S> torque = times(body.inertia, t.dw) + cross<S>(t.w, times(body.inertia, t.w)) - body.torque.cast<S>();
+  Vec3<S> torque = times(body.inertia, t.dw) + cross<S>(t.w, times(body.inertia, t.w)) - body.torque.cast<S>();
+  if (has_drag(body)) add_drag<S>(body, t.w, torque);
   maps.own = t.rates.transpose() * torque;
   add_gauge(body, rule.dt, m, maps.own);
   return maps;
-}
-
-double value_of(double number) { return number; }
-template <class Derivatives>
-double value_of(const Eigen::AutoDiffScalar<Derivatives>& number) {
-  return number.value();
 }
 
 template <class S, int n>

@@ -17,6 +17,12 @@ Properties body(Rotation rotation) {
   return p;
 }
 
+Properties with_drag(Properties p) {
+  p.linear_drag = Vector3(0.7, 0, 0.4);
+  p.quadratic_drag = Vector3(0, 1.3, 0.9);
+  return p;
+}
+
 const Quaternion tilted = Quaternion(0.7, 0.2, -0.4, 0.3).normalized();
 
 RotationState stage_of(Rotation rotation) {
@@ -53,7 +59,7 @@ Stage evaluated(const Properties& p, const Start& start, const StepRule& rule, c
 
 TEST_P(RigidBodyMaps, DerivativesAreThoseOfTheValues) {
   const auto [rotation, conserving, at_rest] = GetParam();
-  const Properties p = body(rotation);
+  const Properties p = conserving ? body(rotation) : with_drag(body(rotation));
   const RotationState begin = rotation_state(rotation, tilted, Vector3(0.5, -0.2, 0.9));
   const Start start = start_of(p, begin.y, begin.dy);
   RotationState s = stage_of(rotation);
@@ -126,15 +132,16 @@ TEST_P(RigidBodyRotation, AttachmentsMoveAsTheAttitudeTurns) {
   EXPECT_LE((now.place * now.place.transpose() - Matrix3::Identity()).norm(), 1e-14);
 }
 
-/// Euler's equations in the world frame: turn^T (R (I w' + w x I w - torque)), the quaternion's gauge apart.
+/// Euler's equations in the world frame: turn^T (R (I w' + w x I w + drag - torque)), the quaternion's gauge apart.
 TEST_P(RigidBodyRotation, OwnForcesAreEulersEquations) {
-  const Properties p = body(GetParam());
+  const Properties p = with_drag(body(GetParam()));
   const RotationState s = stage_of(GetParam());
   const auto [now, forces] = evaluated(p, {}, {}, s);
   const Vector3 w = angular_velocity(GetParam(), s);
   const Matrix3 R = now.place, spin = R.transpose() * now.acceleration;
   const Vector3 dw(0.5 * (spin(2, 1) - spin(1, 2)), 0.5 * (spin(0, 2) - spin(2, 0)), 0.5 * (spin(1, 0) - spin(0, 1)));
-  const Vector3 torque = p.inertia * dw + w.cross(p.inertia * w) - p.torque;
+  const Vector3 drag = (p.linear_drag + p.quadratic_drag.cwiseProduct(w.cwiseAbs())).cwiseProduct(w);
+  const Vector3 torque = p.inertia * dw + w.cross(p.inertia * w) + drag - p.torque;
   Vector4 own = forces.own - forces.turn.transpose() * (R * torque);
   if (GetParam() == Rotation::quaternion) own -= own.dot(s.y) / s.y.squaredNorm() * s.y;
   EXPECT_LE(own.norm(), 1e-13);

@@ -3,8 +3,9 @@
 
 /// A rigid body: the position X of its centre of gravity and its attitude, a quaternion q of four unknowns of which
 /// none is ever singular, or the papers' roll, pitch, yaw.  A cable's end is fastened at x = X + R r.
-/// Euler's equations I w' + w x I w = torque (body axes) are weighted by the rates' map w = rates y'.  Where a step is
-/// taken `conserving` (quaternions), they are taken from end to end:
+/// Euler's equations I w' + w x I w + drag(w) = torque (body axes), drag_i = linear_i w_i + quadratic_i |w_i| w_i, are
+/// weighted by the rates' map w = rates y'.  Where a step is taken `conserving` (quaternions, no drag), they are taken
+/// from end to end:
 ///   R1 = R0 exp(dt (w0 + w1)/2),  R1 I w1 - R0 I w0 = dt torque,  |q1| = 1,
 /// levers of forces (R0 + R1) r/2 times tan(a/2)/(a/2), a the angle turned, so that the kinetic energy changes by
 /// exactly what forces at attachments and the torque do, and without them energy and angular momentum stay.
@@ -29,8 +30,8 @@ struct Properties {
   Matrix3 inertia = Matrix3::Zero();              ///< about the centre of gravity, body axes [kg m^2]
   Vector3 torque = Vector3::Zero();               ///< constant, body axes [N m]
   Quaternion attitude = Quaternion::Identity();   ///< of what does not turn
-  Vector3 linear_drag = Vector3::Zero();          ///< against turning, body axes [N m s]
-  Vector3 quadratic_drag = Vector3::Zero();       ///< [N m s^2]
+  Vector3 linear_drag = Vector3::Zero();          ///< against turning, body axes [N m s], >= 0
+  Vector3 quadratic_drag = Vector3::Zero();       ///< [N m s^2], >= 0
 };
 
 /// The attitude's unknowns and their first two derivatives; those that a body has not are zero.
@@ -84,7 +85,7 @@ struct StageMotion {
 struct StageForces {
   Matrix3 lever;   ///< a force F at r turns by (lever r) x F, world frame
   Matrix34 turn;   ///< a torque T, world frame, is the generalised force turn^T T on y
-  Vector4 own;     ///< inertia, gyroscopic and gauge forces on y less the constant torque's
+  Vector4 own;     ///< inertia, gyroscopic, drag and gauge forces on y less the constant torque's
   Stacked by_lever = Stacked::Zero();
   Matrix4 by_own = Matrix4::Zero();
   Vector4 y = Vector4::Zero();   ///< of the stage
