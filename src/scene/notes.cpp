@@ -94,6 +94,18 @@ private:
   const Usage& usage_;
 };
 
+const Value* first_drawn_moving(const std::vector<PointDraft>& points, const std::vector<BodyDraft>& bodies,
+                                const std::vector<CableDraft>& cables) {
+  const auto moves = [](const Vector3& velocity) { return !velocity.isZero(0); };
+  for (const PointDraft& point : points)
+    if (moves(point.thing.velocity)) return &point.value;
+  for (const BodyDraft& body : bodies)
+    if (moves(body.thing.velocity) || moves(body.thing.angular_velocity)) return &body.value;
+  for (const CableDraft& cable : cables)
+    if (std::any_of(cable.cable.node_velocity.begin(), cable.cable.node_velocity.end(), moves)) return &cable.value;
+  return nullptr;
+}
+
 }   // namespace
 
 std::vector<std::string> body_notes(const std::vector<BodyDraft>& bodies, const std::vector<CableDraft>& cables,
@@ -116,6 +128,14 @@ std::vector<std::string> body_notes(const std::vector<BodyDraft>& bodies, const 
     first += static_cast<std::size_t>(draft.copies());
   }
   return notes;
+}
+
+void add_static_notes(const std::vector<PointDraft>& points, const std::vector<BodyDraft>& bodies,
+                      const std::vector<CableDraft>& cables, Scene& scene) {
+  const Value* moving = scene.is_static ? first_drawn_moving(points, bodies, cables) : nullptr;
+  if (moving == nullptr) return;
+  scene.notes.push_back(
+      moving->said("a drawn velocity does nothing in a scene without time: its equilibrium is solved"));
 }
 
 }   // namespace cablenet::scene

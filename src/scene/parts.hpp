@@ -85,6 +85,7 @@ struct CableDraft {
 };
 
 double read_gravity(const Section& top);
+/// Without `time` the default: nothing but t = 0.
 Time read_time(const Section& top);
 /// @pre the scene's time is read.
 Output read_output(const Section& top, const Time&, const SceneNames&);
@@ -110,5 +111,8 @@ std::vector<Cable> expand_cables(const std::vector<CableDraft>&, const Scene&, S
 void check_ends(const std::vector<CableDraft>&, const std::vector<PointDraft>&, const Scene&);
 /// What is allowed of bodies but perhaps not meant.  @pre the scene is expanded.
 std::vector<std::string> body_notes(const std::vector<BodyDraft>&, const std::vector<CableDraft>&, const Scene&);
+/// To the scene's notes: what a scene without `time` makes no use of.
+void add_static_notes(const std::vector<PointDraft>&, const std::vector<BodyDraft>&, const std::vector<CableDraft>&,
+                      Scene&);
 
 }   // namespace cablenet::scene

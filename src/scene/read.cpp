@@ -8,12 +8,16 @@ namespace cablenet::scene {
 
 namespace {
 
-void check_initial(const Section& top) {
+/// @pre whether the scene is static is known.
+bool read_starts_static(const Section& top, bool is_static) {
   const Value* initial = top.find("initial");
-  if (initial == nullptr) return;
-  if (initial->node.IsScalar() && initial->node.Scalar() == "static")
-    initial->fail("static is not supported yet. Remove it: the scene then starts from the drawn shape.");
-  read_choice(*initial, {"rest"});
+  if (initial == nullptr) return is_static;
+  if (read_choice(*initial, {"rest", "static"}) == 1) return true;
+  if (is_static)
+    initial->fail(
+        "rest is not allowed; expected static or no initial at all, as a scene without time is solved for its "
+        "equilibrium. Remove it, or add time: {end, step}.");
+  return false;
 }
 
 /// All stand in the history's header, where they could not be told apart.
@@ -41,7 +45,8 @@ Scene read_scene(const std::string& text, const std::string& file) {
   scene.text = text;
   if (const Value* title = top.find("title")) scene.title = read_text(*title, "a text");
   scene.gravity = read_gravity(top);
-  check_initial(top);
+  scene.is_static = top.find("time") == nullptr;
+  scene.starts_static = read_starts_static(top, scene.is_static);
   scene.time = read_time(top);
   SceneNames names;
   scene.cable_types = read_cable_types(top, names.types);
@@ -61,6 +66,7 @@ Scene read_scene(const std::string& text, const std::string& file) {
   scene.cables = expand_cables(cable_drafts, scene, names);
   check_ends(cable_drafts, point_drafts, scene);
   scene.notes = body_notes(body_drafts, cable_drafts, scene);
+  add_static_notes(point_drafts, body_drafts, cable_drafts, scene);
   scene.output = read_output(top, scene.time, names);
   return scene;
 }

@@ -11,6 +11,12 @@ namespace cablenet::scene {
 
 namespace {
 
+/// When the motion is asked for, for messages.
+std::string needed_times(const Time& time) {
+  if (time.end > time.start) return fmt::format("all of {}..{} s, from time.start to time.end", time.start, time.end);
+  return fmt::format("t = {} s, at which a scene without time is solved", time.start);
+}
+
 Motion read_waypoints(const Value& value, const Time& time) {
   const std::string expected = "a list of at least 2 rows [t, x, y, z] [s, m, m, m]";
   const std::vector<Value> rows = read_list(value, expected);
@@ -26,10 +32,8 @@ Motion read_waypoints(const Value& value, const Time& time) {
     positions.emplace_back(numbers[1], numbers[2], numbers[3]);
   }
   if (times.front() > time.start || times.back() < time.end)
-    value.fail(
-        fmt::format("the rows cover {}..{} s; expected all of {}..{} s, from time.start to time.end. Add rows or "
-                    "shorten the time.",
-                    times.front(), times.back(), time.start, time.end));
+    value.fail(fmt::format("the rows cover {}..{} s; expected {}. Add rows or {}.", times.front(), times.back(),
+                           needed_times(time), time.end > time.start ? "shorten the time" : "shift their times"));
   return Motion::waypoints(times, positions);
 }
 
@@ -49,10 +53,10 @@ void check_finite(const Value& value, const Motion& motion, const Time& time) {
     const double t = time.start + (time.end - time.start) * i / looks;
     const Kinematics k = motion.at(t);
     if (!k.x.allFinite() || !k.v.allFinite() || !k.a.allFinite())
-      value.fail(
-          fmt::format("position, velocity or acceleration is not finite at t = {} s; expected finite ones from "
-                      "time.start to time.end. Change the expression.",
-                      t));
+      value.fail(fmt::format(
+          "position, velocity or acceleration is not finite at t = {} s; expected finite ones at {}. Change "
+          "the expression.",
+          t, needed_times(time)));
   }
 }
 

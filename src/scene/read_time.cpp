@@ -38,6 +38,13 @@ void read_scheme(const Section& section, Time& time) {
   }
 }
 
+double read_tolerance(const Value& adaptive) {
+  if (!adaptive.node.IsMap())
+    adaptive.refuse("{tolerance: a number > 0 [m]}", "Write adaptive: {tolerance: 1.0e-5}, the local error of a step.");
+  const Section section(adaptive, {"tolerance"});
+  return read_number(section.require("tolerance", "a number > 0 [m], the local error of a step"), Sign::positive, "m");
+}
+
 [[noreturn]] void fail_history(const Value& item, const std::string& name, const SceneNames& names) {
   if (names.nets.has(name)) item.fail(fmt::format("{} is a net; expected points, bodies and cables. Remove it.", name));
   const std::string stem = name.substr(0, name.find('.'));
@@ -81,12 +88,10 @@ double read_gravity(const Section& top) {
 }
 
 Time read_time(const Section& top) {
-  const Value* value = top.find("time");
-  if (value == nullptr)
-    top.map().fail("time is missing: the static equilibrium alone is not supported yet: add time: {end, step}.");
-  const Section section(*value, {"start", "end", "step", "scheme", "spectral_radius"},
-                        {{"adaptive", "Remove it: the step then stays as given by step."}});
   Time time;
+  const Value* value = top.find("time");
+  if (value == nullptr) return time;
+  const Section section(*value, {"start", "end", "step", "adaptive", "scheme", "spectral_radius"});
   if (const Value* start = section.find("start")) time.start = read_number(*start, Sign::any, "s");
   const Value& end = section.require("end", "a number > start [s]");
   time.end = read_number(end, Sign::any, "s");
@@ -97,7 +102,9 @@ Time read_time(const Section& top) {
   const double duration = time.end - time.start;
   if (time.step > duration * (1 + 1e-12))
     step.refuse(fmt::format("a number <= end - start, which is {} [s]", duration), "Make the step smaller.");
-  if (!(duration / time.step < most_steps))
+  if (const Value* adaptive = section.find("adaptive")) time.tolerance = read_tolerance(*adaptive);
+  // An adaptive step may start as small as it likes.
+  if (!time.tolerance && !(duration / time.step < most_steps))
     step.refuse(fmt::format("at most {:.0f} steps from start to end", most_steps), "Make the step larger.");
   read_scheme(section, time);
   return time;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
@@ -222,6 +223,57 @@ TEST(Read, SchemeDefaults) {
   const Time plain = with_time("end: 1, step: 0.1, scheme: plain").time;
   EXPECT_EQ(plain.scheme, Scheme::plain);
   EXPECT_EQ(plain.spectral_radius, 0.8);
+}
+
+TEST(Read, AnAdaptiveStepMayStartSmall) {
+  EXPECT_EQ(everything().time.tolerance, 1e-5);
+  EXPECT_FALSE(with_time("end: 1, step: 1").time.tolerance);
+  EXPECT_EQ(with_time("end: 1000, step: 1e-12, adaptive: {tolerance: 1e-3}").time.tolerance, 1e-3);
+}
+
+TEST(Read, InitialShapes) {
+  const std::string scene = types + ends + one_cable + "time: {start: 2, end: 3, step: 1}\n";
+  for (const char* initial : {"", "initial: rest\n"}) {
+    const Scene rest = read_scene(scene + initial, "small.yaml");
+    EXPECT_FALSE(rest.is_static);
+    EXPECT_FALSE(rest.starts_static);
+  }
+  const Scene from_equilibrium = read_scene(scene + "initial: static\n", "small.yaml");
+  EXPECT_FALSE(from_equilibrium.is_static);
+  EXPECT_TRUE(from_equilibrium.starts_static);
+  EXPECT_EQ(from_equilibrium.time.start, 2);
+}
+
+TEST(Read, WithoutTimeASceneIsStatic) {
+  const std::string motions =
+      "points:\n  a: {motion: {waypoints: [[-1, 0, 0, 0], [3, 4, 0, 0]]}}\n"
+      "  b: {position: [2, 0, 0], motion: {expression: {x: sqrt(1+t)}}}\n"
+      "output: {interval: 0.1, history: [a], energy: true}\n";
+  for (const char* initial : {"", "initial: static\n"}) {
+    const Scene scene = read_scene(types + motions + one_cable + initial, "small.yaml");
+    EXPECT_TRUE(scene.is_static);
+    EXPECT_TRUE(scene.starts_static);
+    EXPECT_EQ(scene.time.start, 0);
+    EXPECT_EQ(scene.time.end, 0);
+    EXPECT_LT((scene.points[0].position - Vector3(1, 0, 0)).norm(), 1e-14);
+    EXPECT_EQ(scene.points[1].motion->at(0).x, Vector3(3, 0, 0));
+    EXPECT_TRUE(scene.notes.empty());
+  }
+}
+
+TEST(Read, WithoutTimeADrawnVelocityIsNotedOnce) {
+  const auto notes = [](const std::string& bodies, const std::string& more) {
+    return read_scene(types + ends + one_cable + "bodies:\n" + bodies + more, "small.yaml").notes;
+  };
+  const std::string attached = "  stone: {mass: 1, position: [0, 0, -1], attachments: {top: [0, 0, 0]}VELOCITY}\n";
+  const std::string moving = std::string(attached).replace(attached.find("VELOCITY"), 8, ", velocity: [1, 0, 0]");
+  const auto found = notes(moving + "  other: {mass: 1, position: [0, 0, 0], velocity: [0, 1, 0]}\n", "");
+  EXPECT_EQ(std::count(found.begin(), found.end(),
+                       "small.yaml:5: bodies.stone: a drawn velocity does nothing in a scene without time: its "
+                       "equilibrium is solved"),
+            1);
+  EXPECT_EQ(found.size(), 3u);
+  EXPECT_EQ(notes(moving, "time: {end: 1, step: 1}\n").size(), 1u);
 }
 
 TEST(Read, OutputAndItsDefaults) {
