@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-#include "parts.hpp"
+#include "names.hpp"
 #include "spelling.hpp"
 
 namespace cablenet::scene {
