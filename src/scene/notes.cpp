@@ -108,9 +108,8 @@ const Value* first_drawn_moving(const std::vector<PointDraft>& points, const std
 
 }   // namespace
 
-std::vector<std::string> body_notes(const std::vector<BodyDraft>& bodies, const std::vector<CableDraft>& cables,
-                                    const Scene& scene) {
-  std::vector<std::string> notes;
+void add_body_notes(const std::vector<BodyDraft>& bodies, const std::vector<CableDraft>& cables, Scene& scene) {
+  std::vector<std::string>& notes = scene.notes;
   const Usage usage(scene);
   std::size_t first = 0;
   for (const BodyDraft& draft : bodies) {
@@ -127,7 +126,6 @@ std::vector<std::string> body_notes(const std::vector<BodyDraft>& bodies, const 
                       draft.from.name, draft.to.name)));
     first += static_cast<std::size_t>(draft.copies());
   }
-  return notes;
 }
 
 void add_static_notes(const std::vector<PointDraft>& points, const std::vector<BodyDraft>& bodies,

@@ -49,12 +49,14 @@ struct CableDraft {
   int copies() const { return repeat ? repeat->count : 1; }
 };
 
-double read_gravity(const Section& top);
+/// Gravity, fluid and bed of the scene.
+void read_environment(const Section& top, Scene&);
 /// Without `time` the default: nothing but t = 0.
 Time read_time(const Section& top);
 /// @pre the scene's time is read.
 Output read_output(const Section& top, const Time&, const SceneNames&);
-std::vector<CableType> read_cable_types(const Section& top, Names& types);
+/// @pre the scene's environment is read.
+std::vector<CableType> read_cable_types(const Section& top, const Scene&, Names& types);
 std::vector<PointDraft> read_points(const Section& top, const Time&);
 std::vector<BodyDraft> read_bodies(const Section& top);
 Motion read_motion(const Value&, const Vector3& position, const Time&);
@@ -74,8 +76,11 @@ void check_circles(const std::vector<CableDraft>&);
 std::vector<Cable> expand_cables(const std::vector<CableDraft>&, const Scene&, SceneNames&);
 /// What can be said only when all ends are known.
 void check_ends(const std::vector<CableDraft>&, const std::vector<PointDraft>&, const Scene&);
-/// What is allowed of bodies but perhaps not meant.  @pre the scene is expanded.
-std::vector<std::string> body_notes(const std::vector<BodyDraft>&, const std::vector<CableDraft>&, const Scene&);
+/// What is allowed of water, and of things in it or out of it, but perhaps not meant.
+std::vector<std::string> water_notes(const Section& top, const std::vector<PointDraft>&, const std::vector<BodyDraft>&,
+                                     const Scene&);
+/// To the scene's notes: what is allowed of bodies but perhaps not meant.  @pre the scene is expanded.
+void add_body_notes(const std::vector<BodyDraft>&, const std::vector<CableDraft>&, Scene&);
 /// To the scene's notes: what a scene without `time` makes no use of.
 void add_static_notes(const std::vector<PointDraft>&, const std::vector<BodyDraft>&, const std::vector<CableDraft>&,
                       Scene&);

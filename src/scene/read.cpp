@@ -44,12 +44,12 @@ Scene read_scene(const std::string& text, const std::string& file) {
   scene.file = file;
   scene.text = text;
   if (const Value* title = top.find("title")) scene.title = read_text(*title, "a text");
-  scene.gravity = read_gravity(top);
+  read_environment(top, scene);
   scene.is_static = top.find("time") == nullptr;
   scene.starts_static = read_starts_static(top, scene.is_static);
   scene.time = read_time(top);
   SceneNames names;
-  scene.cable_types = read_cable_types(top, names.types);
+  scene.cable_types = read_cable_types(top, scene, names.types);
   std::vector<PointDraft> point_drafts = read_points(top, scene.time);
   std::vector<BodyDraft> body_drafts = read_bodies(top);
   const std::vector<CableDraft> cable_drafts = read_cables(top, names.types);
@@ -65,7 +65,8 @@ Scene read_scene(const std::string& text, const std::string& file) {
   scene.bodies = expand_bodies(body_drafts, names.bodies);
   scene.cables = expand_cables(cable_drafts, scene, names);
   check_ends(cable_drafts, point_drafts, scene);
-  scene.notes = body_notes(body_drafts, cable_drafts, scene);
+  scene.notes = water_notes(top, point_drafts, body_drafts, scene);
+  add_body_notes(body_drafts, cable_drafts, scene);
   add_static_notes(point_drafts, body_drafts, cable_drafts, scene);
   scene.output = read_output(top, scene.time, names);
   return scene;

@@ -84,7 +84,7 @@ Quaternion read_orientation(const Value& value) {
   }
   const auto turn = [&](const char* key, const Vector3& axis) {
     const Value* angle = section.find(key);
-    return Eigen::AngleAxisd(angle != nullptr ? read_number(*angle, Sign::any, "deg") * degree : 0, axis);
+    return Eigen::AngleAxisd(angle != nullptr ? read_angle(*angle) : 0, axis);
   };
   return (turn("yaw", Vector3::UnitZ()) * turn("pitch", Vector3::UnitY()) * turn("roll", Vector3::UnitX()))
       .normalized();
@@ -130,12 +130,33 @@ void check_pitch(const Value& value, const Body& body) {
                   pitch));
 }
 
+/// Along the body's three axes, then about them.
+std::array<double, 6> read_six(const Value& value, const char* along, const char* about) {
+  const std::string expected =
+      fmt::format("six numbers >= 0: three along the body's axes [{}], three about them [{}]", along, about);
+  read_numbers(value, 6, expected);
+  std::array<double, 6> numbers{};
+  const std::vector<Value> items = read_list(value, expected);
+  for (std::size_t i = 0; i < 6; ++i) numbers[i] = read_number(items[i], Sign::not_negative, i < 3 ? along : about);
+  return numbers;
+}
+
+void read_water(const Section& section, Body& body) {
+  if (const Value* volume = section.find("volume")) body.volume = read_number(*volume, Sign::not_negative, "m3");
+  if (const Value* center = section.find("center_of_buoyancy")) body.center_of_buoyancy = read_vector(*center, "m");
+  if (const Value* mass = section.find("added_mass")) body.added_mass = read_six(*mass, "kg", "kg m2");
+  const Value* value = section.find("drag");
+  if (value == nullptr) return;
+  if (!value->node.IsMap()) value->refuse("a map of keys: linear, quadratic", "Write drag: {quadratic: [6 numbers]}.");
+  const Section drag(*value, {"linear", "quadratic"});
+  if (const Value* linear = drag.find("linear")) body.linear_drag = read_six(*linear, "N s/m", "N m s");
+  if (const Value* quadratic = drag.find("quadratic")) body.quadratic_drag = read_six(*quadratic, "N s2/m2", "N m s2");
+}
+
 BodyDraft read_body(const Named& named) {
-  const char* advice = "Remove it: without fluid it does nothing.";
-  const Section section(named.value,
-                        {"mass", "inertia", "position", "orientation", "velocity", "angular_velocity", "force",
-                         "torque", "attachments", "rotation", "coupling"},
-                        {{"volume", advice}, {"center_of_buoyancy", advice}, {"drag", advice}, {"added_mass", advice}});
+  const Section section(
+      named.value, {"mass", "inertia", "position", "orientation", "velocity", "angular_velocity", "force", "torque",
+                    "attachments", "rotation", "coupling", "volume", "center_of_buoyancy", "drag", "added_mass"});
   Body body;
   std::vector<Value> places;
   body.name = named.name;
@@ -155,6 +176,7 @@ BodyDraft read_body(const Named& named) {
     body.attitude = read_orientation(*orientation);
     check_pitch(*orientation, body);
   }
+  read_water(section, body);
   return {{std::move(body), named.value}, std::move(places)};
 }
 

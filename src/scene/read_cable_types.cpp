@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "parts.hpp"
@@ -8,14 +9,17 @@ namespace cablenet::scene {
 
 namespace {
 
-std::optional<double> read_area(const Section& section) {
-  std::optional<double> area;
-  if (const Value* value = section.find("diameter")) {
-    const double d = read_number(*value, Sign::positive, "m");
-    area = std::numbers::pi * d * d / 4;
-  }
-  if (const Value* value = section.find("area")) area = read_number(*value, Sign::positive, "m2");
-  return area;
+/// With one of the two given the other is that of a circle.
+void read_cross_section(const Section& section, const Scene& scene, CableType& type) {
+  const Value* diameter = section.find("diameter");
+  const Value* area = section.find("area");
+  if (diameter != nullptr) type.diameter = read_number(*diameter, Sign::positive, "m");
+  type.area =
+      area != nullptr ? read_number(*area, Sign::positive, "m2") : std::numbers::pi * type.diameter * type.diameter / 4;
+  if (diameter == nullptr) type.diameter = std::sqrt(4 * type.area / std::numbers::pi);
+  if (diameter != nullptr || area != nullptr || (!scene.fluid && !scene.bed)) return;
+  section.map().fail(fmt::format("diameter is missing: {} needs it; expected diameter [m] or area [m2], > 0. Add one.",
+                                 scene.fluid ? "environment.fluid" : "environment.seabed"));
 }
 
 struct PerArea {
@@ -24,7 +28,7 @@ struct PerArea {
 };
 
 /// A property of the cross-section: `whole` as given, or `part` times the area.
-double read_whole(const Section& section, PerArea part, PerArea whole, const std::optional<double>& area) {
+double read_whole(const Section& section, PerArea part, PerArea whole, double area) {
   const Value* part_value = section.find(part.key);
   const Value* whole_value = section.find(whole.key);
   if (part_value != nullptr && whole_value != nullptr)
@@ -34,25 +38,31 @@ double read_whole(const Section& section, PerArea part, PerArea whole, const std
     section.map().fail(fmt::format("{} is missing; expected {} [{}] or {} [{}], > 0. Add one of them.", part.key,
                                    part.key, part.unit, whole.key, whole.unit));
   const double value = read_number(*part_value, Sign::positive, part.unit);
-  if (!area)
+  if (area == 0)
     section.map().fail(
         fmt::format("area is missing: {} needs it. Add area [m2] or diameter [m], or give {} [{}] "
                     "instead.",
                     part.key, whole.key, whole.unit));
-  return value * *area;
+  return value * area;
 }
 
-CableType read_type(const Named& named) {
-  const char* advice = "Remove it: without fluid it does nothing.";
+void read_water(const Section& section, CableType& type) {
+  const std::pair<const char*, double&> coefficients[] = {
+      {"normal_drag", type.normal_drag}, {"tangential_drag", type.tangential_drag}, {"added_mass", type.added_mass}};
+  for (const auto& [key, coefficient] : coefficients)
+    if (const Value* value = section.find(key)) coefficient = read_number(*value, Sign::not_negative, "");
+}
+
+CableType read_type(const Named& named, const Scene& scene) {
   const Section section(named.value,
                         {"area", "diameter", "density", "mass_per_length", "youngs_modulus", "axial_stiffness",
-                         "tension_only", "axial_damping", "rayleigh"},
-                        {{"normal_drag", advice}, {"tangential_drag", advice}, {"added_mass", advice}});
+                         "tension_only", "axial_damping", "rayleigh", "normal_drag", "tangential_drag", "added_mass"});
   CableType type;
   type.name = named.name;
-  const auto area = read_area(section);
-  type.mass_per_length = read_whole(section, {"density", "kg/m3"}, {"mass_per_length", "kg/m"}, area);
-  type.axial_stiffness = read_whole(section, {"youngs_modulus", "Pa"}, {"axial_stiffness", "N"}, area);
+  read_cross_section(section, scene, type);
+  type.mass_per_length = read_whole(section, {"density", "kg/m3"}, {"mass_per_length", "kg/m"}, type.area);
+  type.axial_stiffness = read_whole(section, {"youngs_modulus", "Pa"}, {"axial_stiffness", "N"}, type.area);
+  read_water(section, type);
   if (const Value* value = section.find("tension_only")) type.tension_only = read_boolean(*value);
   if (const Value* value = section.find("axial_damping"))
     type.axial_damping = read_number(*value, Sign::not_negative, "N s");
@@ -67,14 +77,14 @@ CableType read_type(const Named& named) {
 
 }   // namespace
 
-std::vector<CableType> read_cable_types(const Section& top, Names& names) {
+std::vector<CableType> read_cable_types(const Section& top, const Scene& scene, Names& names) {
   const std::string expected = "a map from names to cable types";
   std::vector<CableType> types;
   const bool is_needed = top.find("cables") != nullptr || top.find("nets") != nullptr;
   if (!is_needed && top.find("cable_types") == nullptr) return types;
   for (const Named& named : read_named(top.require("cable_types", expected), expected)) {
     names.add(named.name, static_cast<int>(types.size()), 0);
-    types.push_back(read_type(named));
+    types.push_back(read_type(named, scene));
   }
   return types;
 }

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "cablenet/base/errors.hpp"
 #include "expression.hpp"
@@ -42,8 +41,7 @@ Motion read_harmonic(const Value& value, const Vector3& position) {
   const Vector3 amplitude = read_vector(section.require("amplitude", "[x, y, z], three numbers [m]"), "m");
   const double period = read_number(section.require("period", "a number > 0 [s]"), Sign::positive, "s");
   const Value* phase = section.find("phase");
-  const double degrees = phase != nullptr ? read_number(*phase, Sign::any, "deg") : 0;
-  return Motion::harmonic(position, amplitude, period, degrees * std::numbers::pi / 180);
+  return Motion::harmonic(position, amplitude, period, phase != nullptr ? read_angle(*phase) : 0);
 }
 
 /// A root or a logarithm may leave its range on the way; a thousand looks find what a user is likely to write.

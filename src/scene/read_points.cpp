@@ -1,3 +1,7 @@
+#include <fmt/format.h>
+
+#include <tuple>
+
 #include "parts.hpp"
 
 namespace cablenet::scene {
@@ -17,10 +21,24 @@ void read_velocity(const Value& value, const Value* motion, Point& point) {
                       : "the point's motion says its velocity; expected none here. Remove velocity, or motion.");
 }
 
+void read_water(const Section& section, Point& point) {
+  const std::tuple<const char*, const char*, double&> properties[] = {
+      {"volume", "m3", point.volume}, {"drag_area", "m2", point.drag_area}, {"added_mass", "kg", point.added_mass}};
+  for (const auto& [key, unit, property] : properties) {
+    const Value* value = section.find(key);
+    if (value == nullptr) continue;
+    property = read_number(*value, Sign::not_negative, unit);
+    if (point.motion)
+      value->fail(
+          fmt::format("the point goes where its motion says, so this would do nothing; expected {} of free "
+                      "points only. Remove {}, or motion.",
+                      key, key));
+  }
+}
+
 PointDraft read_point(const Named& named, const Time& time) {
-  const char* advice = "Remove it: without fluid it does nothing.";
-  const Section section(named.value, {"position", "velocity", "mass", "force", "motion"},
-                        {{"volume", advice}, {"drag_area", advice}, {"added_mass", advice}});
+  const Section section(named.value,
+                        {"position", "velocity", "mass", "force", "motion", "volume", "drag_area", "added_mass"});
   Point point;
   point.name = named.name;
   point.where = named.value.where();
@@ -34,6 +52,7 @@ PointDraft read_point(const Named& named, const Time& time) {
   if (const Value* velocity = section.find("velocity")) read_velocity(*velocity, motion, point);
   if (const Value* mass = section.find("mass")) point.mass = read_number(*mass, Sign::not_negative, "kg");
   if (const Value* force = section.find("force")) point.force = read_vector(*force, "N");
+  read_water(section, point);
   return {point, named.value};
 }
 

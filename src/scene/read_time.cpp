@@ -77,16 +77,6 @@ void read_history(const Value& value, const SceneNames& names, Output& output) {
 
 }   // namespace
 
-double read_gravity(const Section& top) {
-  const Value* value = top.find("environment");
-  if (value == nullptr) return Scene().gravity;
-  const Section section(*value, {"gravity"},
-                        {{"fluid", "Remove it: the scene then runs in vacuum."},
-                         {"seabed", "Remove it: the scene then runs without contact."}});
-  const Value* gravity = section.find("gravity");
-  return gravity != nullptr ? read_number(*gravity, Sign::not_negative, "m/s2") : Scene().gravity;
-}
-
 Time read_time(const Section& top) {
   Time time;
   const Value* value = top.find("time");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <unordered_set>
 
@@ -137,14 +138,12 @@ void Value::refuse(const std::string& expected, const std::string& advice) const
   fail(fmt::format("{} is not allowed; expected {}.{}{}", shown(), expected, advice.empty() ? "" : " ", advice));
 }
 
-Section::Section(const Value& map, const std::vector<const char*>& allowed, const std::vector<LaterKey>& later)
+Section::Section(const Value& map, const std::vector<const char*>& allowed)
     : map_(map), entries_(entries(map, "a map of keys")) {
   for (const Named& named : entries_) {
     const auto is_same = [&](const char* key) { return named.name == key; };
     if (std::any_of(allowed.begin(), allowed.end(), is_same)) continue;
     Value at_key = named.value;
-    for (const LaterKey& key : later)
-      if (named.name == key.name) at_key.fail(fmt::format("is not supported yet. {}", key.advice));
     const std::vector<std::string> keys(allowed.begin(), allowed.end());
     at_key.fail(fmt::format("unknown key; expected one of: {}.{} Correct or remove it.", fmt::join(keys, ", "),
                             did_you_mean(named.name, keys)));
@@ -174,6 +173,8 @@ double read_number(const Value& value, Sign sign, const std::string& unit) {
     refuse("Correct the value.");
   return *number;
 }
+
+double read_angle(const Value& value) { return read_number(value, Sign::any, "deg") * std::numbers::pi / 180; }
 
 int read_integer(const Value& value, int lowest) {
   const auto number = is_plain_scalar(value) ? parsed<int>(value.node.Scalar()) : std::nullopt;

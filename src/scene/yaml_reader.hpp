@@ -31,17 +31,11 @@ struct Named {
   Value value;
 };
 
-/// A key that this version knows of and cannot serve yet.
-struct LaterKey {
-  const char* name;
-  const char* advice;   ///< what to do instead
-};
-
 /// A map with a fixed set of keys.
 class Section {
 public:
-  /// @throws InputError if `map` is no map, a key is unknown, doubled or not supported yet.
-  Section(const Value& map, const std::vector<const char*>& allowed, const std::vector<LaterKey>& later = {});
+  /// @throws InputError if `map` is no map, a key is unknown or doubled.
+  Section(const Value& map, const std::vector<const char*>& allowed);
 
   const Value* find(const char* key) const;   ///< nullptr if absent
   /// @throws InputError if absent, saying what was `expected`.
@@ -57,6 +51,8 @@ enum class Sign { any, not_negative, positive };
 
 /// @param unit  for messages: "m"; empty for a pure number
 double read_number(const Value&, Sign, const std::string& unit);
+/// Written in degrees.  [rad]
+double read_angle(const Value&);
 int read_integer(const Value&, int lowest);
 bool read_boolean(const Value&);
 std::string read_text(const Value&, const std::string& expected);

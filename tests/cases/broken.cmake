@@ -1,1 +1,1 @@
-cablenet_script_test(broken_scenes cases/broken_scenes.py 300 cases)
+cablenet_script_test(broken_scenes cases/broken_scenes.py 600 cases)

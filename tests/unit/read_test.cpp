@@ -94,7 +94,7 @@ TEST(Read, Points) {
   const Scene scene = everything();
   const Point& pin = scene.points.at(1);
   EXPECT_EQ(pin.name, "pin");
-  EXPECT_EQ(pin.where, "everything.yaml:21");
+  EXPECT_EQ(pin.where, "everything.yaml:34");
   EXPECT_EQ(pin.mass, 2);
   EXPECT_EQ(pin.force, Vector3(0, 0, -5));
   ASSERT_TRUE(pin.motion);
@@ -177,7 +177,7 @@ TEST(Read, RepeatedBodiesStandInPlaceOfTheirOriginal) {
 TEST(Read, ACableMayNameCopiesAndComeBeforeItsHost) {
   const Scene scene = everything();
   const Cable& hanger = scene.cables[0];
-  EXPECT_EQ(hanger.where, "everything.yaml:33");
+  EXPECT_EQ(hanger.where, "everything.yaml:53");
   EXPECT_EQ(std::get<TapEnd>(hanger.from).cable, index_of(scene.cables, "branch[2]"));
   EXPECT_EQ(std::get<PointEnd>(hanger.to).point, index_of(scene.points, "free[0]"));
   EXPECT_FALSE(hanger.length);
