@@ -1,5 +1,7 @@
 #include "bodies.hpp"
 
+#include <array>
+
 namespace cablenet::network {
 namespace {
 
@@ -33,23 +35,49 @@ Body make_body(const scene::Body& body, Network& network) {
   const Matrix3 inertia = body.inertia.value_or(Matrix3::Zero());
   return {body.name,
           node,
-          {rotation, inertia, body.torque, body.attitude},
+          {rotation, inertia, body.torque, body.attitude, Vector3::Zero(), Vector3::Zero()},
           bodies::rotation_state(rotation, body.attitude, body.angular_velocity),
+          std::nullopt,
           static_cast<int>(network.carried.size()),
           0};
+}
+
+int add_carried(const scene::Body& from, const Vector3& offset, Body& body, Network& network) {
+  const Vector3 position = from.position + from.attitude * offset;
+  const Vector3 velocity = from.velocity + from.attitude * from.angular_velocity.cross(offset);
+  const int node = add_node(network, position, velocity);
+  network.carried.push_back({node, static_cast<int>(network.bodies.size()), offset});
+  ++body.carried;
+  return node;
+}
+
+Vector3 three(const std::array<double, 6>& values, std::size_t first) {
+  return {values[first], values[first + 1], values[first + 2]};
+}
+
+/// Added inertia turns with the body as its own does; buoyancy is a force at a carried node.
+void put_in_water(const scene::Body& from, double density, Body& body, Network& network) {
+  const Vector3 linear = three(from.linear_drag, 0), quadratic = three(from.quadratic_drag, 0);
+  const double radius = wetted_radius(from.volume, 2 / density * quadratic.maxCoeff());
+  body.water = {linear, quadratic, three(from.added_mass, 0), radius};
+  if (body.properties.rotation != bodies::Rotation::none) {
+    body.properties.inertia += three(from.added_mass, 3).asDiagonal();
+    body.properties.linear_drag = three(from.linear_drag, 3);
+    body.properties.quadratic_drag = three(from.quadratic_drag, 3);
+  }
+  if (from.volume == 0) return;
+  const bool central = from.center_of_buoyancy.isZero(0) || body.properties.rotation == bodies::Rotation::none;
+  const int node = central ? body.node : add_carried(from, from.center_of_buoyancy, body, network);
+  network.wet_points.push_back({node, {density * from.volume, 0, 0, radius}});
 }
 
 /// The node at which cables on an attachment end: the body's own, a carried one, or one that a link ties to that.
 int add_attachment(const scene::Body& from, const Vector3& offset, Body& body, Network& network) {
   const bool centred = offset.isZero(0);
   if (centred && body.properties.rotation == bodies::Rotation::none) return body.node;
-  const Vector3 position = from.position + from.attitude * offset;
-  const Vector3 velocity = from.velocity + from.attitude * from.angular_velocity.cross(offset);
-  const int node = add_node(network, position, velocity);
-  network.carried.push_back({node, static_cast<int>(network.bodies.size()), offset});
-  ++body.carried;
+  const int node = add_carried(from, offset, body, network);
   if (!from.link_stiffness || centred) return node;
-  const int end = add_node(network, position, velocity);
+  const int end = add_node(network, network.position[at(node)], network.velocity[at(node)]);
   network.links.push_back({{end, node}, *from.link_stiffness / offset.norm()});
   return end;
 }
@@ -65,6 +93,7 @@ AttachmentNodes add_bodies(const scene::Scene& scene, Network& network) {
     nodes.emplace_back(from.attachments.size(), -1);
     for (std::size_t k = 0; k < from.attachments.size(); ++k)
       if (used[i][k]) nodes[i][k] = add_attachment(from, from.attachments[k].offset, body, network);
+    if (scene.fluid) put_in_water(from, scene.fluid->density, body, network);
     network.bodies.push_back(std::move(body));
   }
   return nodes;

@@ -93,6 +93,7 @@ void Builder::number_nodes() {
   network_.velocity.resize(static_cast<std::size_t>(nodes), Vector3::Zero());
   prescribed_.assign(static_cast<std::size_t>(nodes), false);
   network_.gravity = scene_.gravity;
+  network_.surroundings = make_surroundings(scene_);
   for (const auto& type : scene_.cable_types)
     network_.materials.push_back({type.axial_stiffness,
                                   type.axial_damping + type.rayleigh_stiffness * type.axial_stiffness,
@@ -119,6 +120,9 @@ void Builder::place_points() {
       prescribed_[i] = true;
     }
     if (point.mass > 0 || !point.force.isZero(0)) network_.loads.push_back({node, point.mass, point.force});
+    const bool is_wet = point.volume > 0 || point.drag_area > 0 || point.added_mass > 0;
+    if (is_wet && scene_.fluid && !point.motion)
+      network_.wet_points.push_back({node, point_in_water(point, scene_.fluid->density)});
   }
 }
 

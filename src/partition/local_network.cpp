@@ -38,7 +38,11 @@ public:
     for (const auto& load : network_.loads)
       if (local_of_[at(load.node)] >= 0 && here_.primary[at(local_of_[at(load.node)])])
         here_.loads.push_back({local_of_[at(load.node)], load.mass, load.force});
+    for (const auto& point : network_.wet_points)
+      if (const int node = local_of_[at(point.node)]; node >= 0 && here_.primary[at(node)])
+        here_.wet_points.push_back({node, point.water});
     here_.materials = network_.materials;
+    here_.surroundings = network_.surroundings;
     here_.gravity = network_.gravity;
     here_.interface = partition_.interface;
     return std::move(here_);
@@ -182,7 +186,7 @@ private:
   void add_body(int index, int node, const std::unordered_set<int>& touched) {
     const network::Body& body = network_.bodies[at(index)];
     const bool own = node < here_.owned;
-    LocalBody local{node, index, body.properties, body.start, static_cast<int>(here_.carried.size()), 0};
+    LocalBody local{node, index, body.properties, body.start, body.water, static_cast<int>(here_.carried.size()), 0};
     for (int k = body.first_carried; k < body.first_carried + body.carried; ++k) {
       const network::CarriedNode& carried = network_.carried[at(k)];
       if (!own && !touched.contains(carried.node)) continue;

@@ -1,12 +1,14 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cablenet/base/linear_algebra.hpp"
 #include "cablenet/bodies/rigid_body.hpp"
 #include "cablenet/elements/cable.hpp"
+#include "cablenet/network/surroundings.hpp"
 #include "cablenet/scene/motion.hpp"
 
 /// The whole discretised network in the scene's own numbering: points first, then the bodies' centres of gravity and
@@ -37,8 +39,9 @@ struct Body {
   std::string name;
   int node;   ///< its centre of gravity; the mass is one of Network::loads
   bodies::Properties properties;
-  bodies::RotationState start;   ///< attitude and angular velocity
-  int first_carried = 0;         ///< its carried nodes: [first_carried, first_carried + carried)
+  bodies::RotationState start;                ///< attitude and angular velocity
+  std::optional<bodies::BodyInWater> water;   ///< none: the scene has no fluid
+  int first_carried = 0;                      ///< its carried nodes: [first_carried, first_carried + carried)
   int carried = 0;
 };
 
@@ -73,6 +76,8 @@ struct Network {
   std::vector<Body> bodies;                 ///< the scene's
   std::vector<CarriedNode> carried;         ///< body after body
   std::vector<Link> links;
+  Surroundings surroundings;
+  std::vector<WetPoint> wet_points;
   std::vector<Span> spans;       ///< the scene's cables, then its nets
   std::vector<int> point_node;   ///< per scene point
   double gravity = 0;            ///< [m/s^2] along -z

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "cablenet/network/network.hpp"
@@ -24,6 +25,7 @@ struct LocalBody {
   int body;   ///< index into Network::bodies
   bodies::Properties properties;
   bodies::RotationState start;
+  std::optional<bodies::BodyInWater> water;
   int first_carried, carried;   ///< its nodes here: [first_carried, first_carried + carried) of LocalNetwork::carried
 };
 
@@ -75,6 +77,8 @@ struct LocalNetwork {
   std::vector<network::Link> links;    ///< nodes are local; own ones first
   int own_links = 0;                   ///< that belong to this rank: the owner of the free end's
   std::vector<elements::CableMaterial> materials;
+  network::Surroundings surroundings;
+  std::vector<network::WetPoint> wet_points;   ///< at nodes of this rank, or that its bodies carry; node is local
   double gravity = 0;              ///< [m/s^2] along -z
   std::vector<Vector3> position;   ///< per local node, at the start [m]
   std::vector<Vector3> velocity;   ///< per local node, at the start [m/s]
