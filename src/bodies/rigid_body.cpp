@@ -49,7 +49,7 @@ Vec3<S> cross(const Vec3<S>& a, const Vec3<S>& b) {
 
 template <class S>
 void add_gauge(const Properties& body, double dt, const Motion<S, 4>& m, Unknowns<S, 4>& own) {
-  const double s = dt > 0 ? gauge_rate / dt : 0;
+  const double s = dt > 0 ? gauge_rate / dt : 1;
   const S g = 0.5 * (m.y.squaredNorm() - 1.0), dg = m.y.dot(m.dy), ddg = m.y.dot(m.ddy) + m.dy.squaredNorm();
   const S force = 4 * body.inertia.trace() / 3 * (ddg + 2 * s * dg + s * s * g);
   own += force * m.y;

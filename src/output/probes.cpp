@@ -101,7 +101,9 @@ Vector3 Probes::end_force(const system::LocalState& state, const ElementEnd& end
   const elements::CableMaterial& material = here.materials[at(element.material)];
   const elements::EndForces forces = elements::cable_end_forces(
       material, element.length, here.gravity, state.chord(element), state.inertial(element, material.mass_damping));
-  return end.side == 0 ? forces.on1 : forces.on2;
+  const Vector3 force = end.side == 0 ? forces.on1 : forces.on2;
+  if (here.surroundings.empty()) return force;
+  return force - assembler_.surroundings_force(element, at(end.side));
 }
 
 void Probes::put(std::size_t column, const Vector3& value) {

@@ -4,12 +4,11 @@
 #include <type_traits>
 
 #include "access.hpp"
-#include "attached_work.hpp"
 #include "body_set.hpp"
 #include "cablenet/petsc/object_state.hpp"
 #include "cablenet/petsc/phase.hpp"
 #include "element_loop.hpp"
-#include "starts.hpp"
+#include "sweep.hpp"
 
 namespace cablenet::system {
 namespace {
@@ -29,7 +28,7 @@ Assembler::Assembler(partition::LocalNetwork network, ForceRule rule, MPI_Comm c
       is_elastic_(std::all_of(network_.materials.begin(), network_.materials.end(), elements::is_elastic)),
       ghosts_(network_, communicator),
       starts_(std::make_unique<Starts>()),
-      bodies_(std::make_unique<BodySet>(network_, !is_elastic_)) {
+      bodies_(std::make_unique<BodySet>(network_, !is_elastic_ || !network_.surroundings.empty())) {
   petsc::register_phases();
   outside_.resize(at(network_.nodes - network_.owned));
   outside_r_.resize(3 * outside_.size());
@@ -52,8 +51,9 @@ TangentMatrix Assembler::make_tangent() const {
   const bool rates = std::any_of(network_.materials.begin(), network_.materials.end(),
                                  [](const auto& material) { return material.axial_damping > 0; });
   const bool two_ended = rule_.scheme == scene::Scheme::energy_momentum;
+  const bool dry = network_.surroundings.empty();
   const bool nodes_alone = rule_.tangent == elements::Tangent::secant || (!two_ended && !rates);
-  const bool symmetric = nodes_alone && network_.blocks.uniform();
+  const bool symmetric = nodes_alone && dry && network_.blocks.uniform();
   return {network_, symmetric, communicator_};
 }
 
@@ -102,101 +102,16 @@ void Assembler::begin_step(double t, Vec x, Vec v) {
   visit_law({}, [&](const auto& law) { record_starts(law, access); });
 }
 
-template <class Law>
-void Assembler::record_starts(const Law&, const Access& access) {
-  if constexpr (!std::is_same_v<typename Law::Start, NoStart>) {
-    auto& starts = starts_->of<Law>(network_.elements.size());
-    const auto record = [&](Range range, auto nodes) {
-      for_each_element(network_, range, [&](std::size_t i, const partition::LocalElement& e) {
-        const int n1 = nodes.name(e, 0), n2 = nodes.name(e, 1);
-        Vector3 w = Vector3::Zero();
-        if constexpr (Law::general) w = difference(nodes.v(n2), nodes.v(n1));
-        starts[i] = Law::start(network_.materials[at(e.material)], e.length, difference(nodes.x(n2), nodes.x(n1)), w);
-        return true;
-      });
-    };
-    record({0, network_.inner_elements}, InnerNodes{access.data});
-    record({network_.inner_elements, static_cast<int>(network_.elements.size())}, AnyNodes{access.data});
-  }
-}
-
-/// Elements between owned nodes first: the ghosts' motion arrives meanwhile.
-template <class Law, bool with_residual, bool with_tangent>
-bool Assembler::sweep(const Law& law, const Stage& stage, Access& access, const TangentRequest* request) {
-  const auto& starts = starts_->of<Law>(network_.elements.size());
-  TangentTarget target{};
-  if constexpr (with_tangent)
-    target = {request->matrix.open(), request->matrix.element_slots().data(), request->shift_v, request->shift_a};
-  const auto visit = [&](Range range, auto nodes) {
-    const ElementWork<Law, decltype(nodes), with_residual, with_tangent> work{network_, law, starts.data(), nodes,
-                                                                              target};
-    return for_each_element(network_, range, [&](std::size_t i, const partition::LocalElement& e) {
-      if (work(i, e)) return true;
-      coincident_ = network_.scene_element[i];
-      return false;
-    });
-  };
-  constexpr petsc::Phase phase = with_residual ? petsc::Phase::residual : petsc::Phase::tangent;
-  const auto timed_visit = [&](Range range, auto nodes) {
-    const petsc::Timer timer(phase);
-    return visit(range, nodes);
-  };
-  bool in_domain = timed_visit({0, network_.inner_elements}, InnerNodes{access.data});
-  access.finish_exchange();
-  in_domain = timed_visit({network_.inner_elements, network_.attached.first}, AnyNodes{access.data}) && in_domain;
-  if (!bodies_->empty()) in_domain = sweep_bodies<Law, with_tangent>(law, stage, access, request) && in_domain;
-  const Range copies{network_.attached.last, static_cast<int>(network_.elements.size())};
-  in_domain = timed_visit(copies, AnyNodes{access.data}) && in_domain;
-  if constexpr (with_tangent) request->matrix.close();
-  return in_domain;
-}
-
-/// Elements and links at the nodes that bodies carry.
-template <class Law, bool with_tangent>
-bool Assembler::sweep_bodies(const Law& law, const Stage& stage, Access& access, const TangentRequest* request) {
-  const petsc::Timer timer(access.has_residual() ? petsc::Phase::residual : petsc::Phase::tangent);
-  const AnyNodes nodes{access.data};
-  TangentTarget target{};
-  bodies::Seeds seeds{};
-  if constexpr (with_tangent) {
-    target = {request->matrix.values(), request->matrix.element_slots().data(), request->shift_v, request->shift_a};
-    seeds = {request->shift_x, request->shift_v, request->shift_a, !is_elastic_};
-  }
-  bool in_domain = bodies_->place(stage, conserves(stage), access.data, with_tangent ? &seeds : nullptr);
-  const AttachedBlocks blocks(network_, *bodies_, target);
-  const AttachedWork<Law, with_tangent> work{network_, law,    starts_->of<Law>(network_.elements.size()).data(),
-                                             nodes,    target, blocks};
-  in_domain = for_each_element(network_, network_.attached,
-                               [&](std::size_t i, const partition::LocalElement& e) {
-                                 if (work(i, e)) return true;
-                                 coincident_ = network_.scene_element[i];
-                                 return false;
-                               }) &&
-              in_domain;
-  add_links(network_, nodes, request, blocks);
-  return in_domain;
-}
-
-template <class Law>
-bool Assembler::run(const Law& law, const Stage& stage, Access& access, const TangentRequest* request) {
-  const auto sweep_all = [&] {
-    if (!access.has_residual()) return sweep<Law, false, true>(law, stage, access, request);
-    return request == nullptr ? sweep<Law, true, false>(law, stage, access, nullptr)
-                              : sweep<Law, true, true>(law, stage, access, request);
-  };
-  const bool in_domain = sweep_all();
-  if (!bodies_->empty()) bodies_->collect(access.data, request != nullptr ? &request->matrix : nullptr);
-  return in_domain;
-}
-
-void Assembler::add_loads(Access& access, const TangentRequest* request) {
+void Assembler::add_loads(double t, Access& access, const TangentRequest* request) {
   const AnyNodes nodes{access.data};
   if (access.has_residual())
     for (const auto& [node, mass, force] : network_.loads)
       as_vector(nodes.r(node)) +=
           mass * (Eigen::Map<const Vector3>(nodes.a(node)) + Vector3(0, 0, network_.gravity)) - force;
-  if (request == nullptr || network_.loads.empty()) return;
-  const TangentTarget target{request->matrix.open(), nullptr, 0, 0};
+  if (request != nullptr) request->matrix.open();
+  if (!network_.wet_points.empty()) add_wet_points(t, access, request);
+  if (request == nullptr) return;
+  const TangentTarget target{request->matrix.values(), nullptr, 0, 0};
   for (std::size_t i = 0; i < network_.loads.size(); ++i)
     put_block<AnyNodes>(target, request->matrix.load_slots()[i], 0, Matrix3::Zero(),
                         network_.loads[i].mass * request->shift_a);
@@ -212,7 +127,7 @@ bool Assembler::residual(const Stage& stage, Vec x, Vec v, Vec a, Vec r, const T
   set_prescribed(stage);
   bool in_domain = true;
   visit_law(stage, [&](const auto& law) { in_domain = run(law, stage, access, request); });
-  add_loads(access, request);
+  add_loads(stage.t + stage.alpha_f * stage.dt, access, request);
   return in_domain;
 }
 
@@ -225,7 +140,7 @@ void Assembler::tangent(const Stage& stage, Vec x, Vec v, Vec a, const TangentRe
     evaluated_stage_ = stage;
   }
   visit_law(stage, [&](const auto& law) { run(law, stage, access, &request); });
-  add_loads(access, &request);
+  add_loads(stage.t + stage.alpha_f * stage.dt, access, &request);
 }
 
 void Assembler::mass_matrix(Vec x, Vec v, TangentMatrix& mass) {
@@ -235,7 +150,7 @@ void Assembler::mass_matrix(Vec x, Vec v, TangentMatrix& mass) {
   access.begin_exchange();
   const TangentRequest request{mass, 0, 1, 0};
   run(NoLaw{}, {}, access, &request);
-  add_loads(access, &request);
+  add_loads(0, access, &request);
 }
 
 void Assembler::force(double t, Vec x, Vec v, Vec force) {
@@ -246,7 +161,7 @@ void Assembler::force(double t, Vec x, Vec v, Vec force) {
   start_prescribed(t);
   set_prescribed({t, 0, 0});
   run(StageLaw<true>{rule_.tangent}, {t, 0, 0}, access, nullptr);
-  add_loads(access, nullptr);
+  add_loads(t, access, nullptr);
   access.close();
   check(VecScale(force, -1));
 }

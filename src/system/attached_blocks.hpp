@@ -2,6 +2,7 @@
 #include <type_traits>
 
 #include "body_set.hpp"
+#include "cablenet/elements/cable_in_water.hpp"
 #include "element_loop.hpp"
 
 /// What elements and links at bodies write into the tangent.
@@ -27,8 +28,21 @@ public:
       for (std::size_t j = 0; j < 2; ++j) write_block(node[i], node[j], i == j, slots[2 * i + j], t);
   }
 
+  /// Adds to a block that is written.  @param slot  of the two nodes, absent for one that is carried
+  void add(int row, int column, TangentMatrix::Slot slot, const MotionSlopes& slopes,
+           const elements::Follow& follow) const {
+    BodyBlock* const own = shared_block(row, column);
+    if (slot.absent && own == nullptr) return;
+    slot.add = 1;
+    RowMajor<3, 8> part = RowMajor<3, 8>::Zero();
+    part.leftCols<3>() = follow.x * slopes.by_x + follow.v * slopes.by_v + follow.a * slopes.by_a;
+    const CarriedTangent* const turning = carried(column);
+    if (turning) part.middleCols<4>(3) = slopes.by_x * turning->x + slopes.by_v * turning->v + slopes.by_a * turning->a;
+    put(own, slot, carried(row), part, turning != nullptr ? 3 + turning->unknowns : 3);
+  }
+
 private:
-  /// A carried node's part of the tangent; nullptr for other nodes.
+  /// nullptr for nodes that no body carries.
   const CarriedTangent* carried(int node) const {
     return network_.is_carried(node) ? &bodies_.carried_tangent(node) : nullptr;
   }

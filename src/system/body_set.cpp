@@ -130,6 +130,24 @@ BodySet::Sums BodySet::sums(std::size_t b, const NodeData& data) const {
   return sums;
 }
 
+void BodySet::add_water(const environment::Fluid& fluid, double t, const NodeData& data,
+                        const elements::Follow* follow) {
+  const AnyNodes nodes{data};
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const partition::LocalBody& body = network_.bodies[b];
+    const bool turns = unknowns(b) > 0;
+    const Matrix3 R = turns ? forces_[b].lever : Matrix3(body.properties.attitude.toRotationMatrix());
+    const bodies::PointMotion motion{Const3(nodes.x(body.node)), Const3(nodes.v(body.node)),
+                                     Const3(nodes.a(body.node))};
+    const bodies::BodyLoad load = bodies::body_load(*body.water, fluid, t, R, motion);
+    if (data.r != nullptr) Map3(data.r + data.begin[body.node]) -= load.force;
+    if (follow == nullptr) continue;
+    blocks_[b].topLeftCorner<3, 3>() -= follow->x * load.by_x + follow->v * load.by_v + follow->a * load.by_a;
+    for (int k = 0; k < unknowns(b); ++k)
+      blocks_[b].block<3, 1>(0, 3 + k) -= load.by_rotation(R, forces_[b].by_lever.middleRows<3>(3 * k));
+  }
+}
+
 void BodySet::collect(const NodeData& data, TangentMatrix* tangent) {
   const std::array<double*, 2> values = tangent != nullptr ? tangent->open() : std::array<double*, 2>{};
   for (std::size_t b = 0; b < blocks_.size(); ++b) {

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "cablenet/bodies/rigid_body.hpp"
+#include "cablenet/elements/cable_in_water.hpp"
 #include "cablenet/partition/local_network.hpp"
 #include "cablenet/system/rules.hpp"
 #include "cablenet/system/tangent_matrix.hpp"
@@ -19,6 +20,11 @@ struct CarriedTangent {
   RowMajor<3, 4> x = RowMajor<3, 4>::Zero(), v = x, a = x;
   bodies::Matrix34 load = x;   ///< a force F is the generalised force load^T F on the attitude
   int unknowns = 0;            ///< of the attitude
+};
+
+/// Derivatives of a force by a node's motion [N/m], [N s/m], [kg].
+struct MotionSlopes {
+  Matrix3 by_x, by_v, by_a;
 };
 
 /// A body's block of the tangent while its parts are collected, and a column to spare.
@@ -45,6 +51,10 @@ public:
   const CarriedTangent& carried_tangent(int local_node) const;
   /// Where a part of the block of the body that carries `local_node` is added; nullptr if it is another rank's.
   BodyBlock* block_at(int local_node);
+
+  /// Adds what water does at the bodies' centres of gravity.
+  /// @param follow  with it, the derivatives go to the bodies' own blocks
+  void add_water(const environment::Fluid& fluid, double t, const NodeData& data, const elements::Follow* follow);
 
   /// Adds what the bodies' own inertia and the forces on carried nodes come to, where data has a residual, and writes
   /// the bodies' own blocks of the tangent, where there is one.

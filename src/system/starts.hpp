@@ -6,6 +6,13 @@
 
 namespace cablenet::system {
 
+/// A prescribed node at the two ends of the step.
+struct Assembler::NodeStep {
+  scene::Kinematics start;
+  scene::Kinematics end;
+  Vector3 previous_reaction = Vector3::Zero();
+};
+
 /// One array per kind of start; only that of the law in use has elements.
 struct Assembler::Starts {
   template <class Law>

@@ -1,5 +1,6 @@
 #include "body_set.hpp"
 #include "cablenet/system/assembler.hpp"
+#include "starts.hpp"
 
 /// What happens at the two ends of a step: prescribed motions, work, and the bodies' end velocities.
 namespace cablenet::system {
@@ -84,9 +85,11 @@ void Assembler::end_step(const Stage& stage, Vec x, Vec v) {
   check(VecRestoreArray(x, &x_values));
 }
 
-/// Bodies can be taken from end to end at the mid-point alone, which PETSc's options may shift.
+/// Bodies can be taken from end to end at the mid-point alone, which PETSc's options may shift.  In water they gain
+/// nothing by it.
 bool Assembler::conserves(const Stage& stage) const {
-  return rule_.scheme == scene::Scheme::energy_momentum && stage.dt > 0 && stage.alpha_f == 0.5;
+  return rule_.scheme == scene::Scheme::energy_momentum && stage.dt > 0 && stage.alpha_f == 0.5 &&
+         !network_.surroundings.fluid;
 }
 
 int Assembler::outside_body() const {

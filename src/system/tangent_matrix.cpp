@@ -196,6 +196,8 @@ TangentMatrix::TangentMatrix(const partition::LocalNetwork& network, bool symmet
   for (int b = 0; b < network.own_bodies; ++b)
     body_slots_.push_back(pattern.slot(network.bodies[at(b)].node, network.bodies[at(b)].node));
   for (const auto& load : network.loads) load_slots_.push_back(pattern.slot(load.node, load.node));
+  for (const auto& wet : network.wet_points)
+    wet_slots_.push_back(network.is_carried(wet.node) ? Slot{} : pattern.slot(wet.node, wet.node));
 
   std::array<char, 64> type{};
   PetscBool chosen = PETSC_FALSE;

@@ -2,6 +2,7 @@
 #include <petscvec.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "cablenet/partition/local_network.hpp"
@@ -57,6 +58,8 @@ public:
   const LocalState& observe(double t, Vec x, Vec v, Vec a);
   /// This rank's part: kinetic, strain, gravity energy and external work since the start [J].  @pre observe
   Energies energies() const;
+  /// What water and bed push an element's end with.  [N]  @pre observe.  Not collective.
+  Vector3 surroundings_force(const partition::LocalElement& element, std::size_t end) const;
 
   /// In Network::bodies: one on any rank whose Euler angles are singular within a degree of pitch; -1: none.
   int nearly_singular_body(Vec x) const;
@@ -69,11 +72,12 @@ public:
   int outside_body() const;
 
 private:
+  friend class StaticForces;
   struct Starts;
   struct Access;
-
+  struct NodeStep;
+  struct SurroundingsSweep;
   bool conserves(const Stage& stage) const;
-
   void start_prescribed(double t);
   void add_work(const Stage& stage);
   void set_prescribed(const Stage& stage);
@@ -87,14 +91,10 @@ private:
   bool sweep(const Law& law, const Stage& stage, Access& access, const TangentRequest* request);
   template <class Law, bool with_tangent>
   bool sweep_bodies(const Law& law, const Stage& stage, Access& access, const TangentRequest* request);
-  void add_loads(Access& access, const TangentRequest* request);
-
-  /// A prescribed node at the two ends of the step.
-  struct NodeStep {
-    scene::Kinematics start;
-    scene::Kinematics end;
-    Vector3 previous_reaction = Vector3::Zero();
-  };
+  void add_loads(double t, Access& access, const TangentRequest* request);
+  void add_surroundings(const Stage& stage, Access& access, const TangentRequest* request);
+  void add_wet_points(double t, Access& access, const TangentRequest* request);
+  const environment::Fluid& water() const { return calm_ ? *calm_ : *network_.surroundings.fluid; }
 
   partition::LocalNetwork network_;
   ForceRule rule_;
@@ -108,7 +108,8 @@ private:
   std::unique_ptr<Starts> starts_;   ///< per element
   std::unique_ptr<BodySet> bodies_;
   std::vector<NodeStep> prescribed_;
-  petsc::VectorState evaluated_;   ///< of the x that outside_ belongs to
+  std::optional<environment::Fluid> calm_;   ///< without waves, while statics is at work
+  petsc::VectorState evaluated_;             ///< of the x that outside_ belongs to
   Stage evaluated_stage_{};
   double prescribed_dt_ = -1;   ///< the step that prescribed_'s ends were evaluated for
   double previous_stage_t_ = 0;

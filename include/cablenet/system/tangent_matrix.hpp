@@ -38,8 +38,9 @@ public:
   const std::vector<ElementSlots>& link_slots() const { return link_slots_; }
   /// Diagonal blocks of this rank's bodies: written after all elements.
   const std::vector<Slot>& body_slots() const { return body_slots_; }
-  /// Diagonal blocks of the network's loads: written last.
+  /// Diagonal blocks of the network's loads and of the nodes that water acts on: written last.
   const std::vector<Slot>& load_slots() const { return load_slots_; }
+  const std::vector<Slot>& wet_slots() const { return wet_slots_; }
 
   /// The values of the columns of this rank and of those of others, open until close().  Not collective.
   std::array<double*, 2> open();
@@ -61,6 +62,7 @@ private:
   std::vector<ElementSlots> link_slots_;
   std::vector<Slot> body_slots_;
   std::vector<Slot> load_slots_;
+  std::vector<Slot> wet_slots_;
 };
 
 }   // namespace cablenet::system
