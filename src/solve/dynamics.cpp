@@ -9,6 +9,7 @@
 #include "cablenet/base/errors.hpp"
 #include "cablenet/petsc/queries.hpp"
 #include "cablenet/solve/defaults.hpp"
+#include "failed_place.hpp"
 
 namespace cablenet::solve {
 namespace {
@@ -24,11 +25,6 @@ constexpr double relative_force_tolerance = 1e-12;
 
 /// How often the largest coordinate, which rounding depends on, is looked up.
 constexpr long steps_between_norms = 64;
-
-/// Larger than any residual.
-constexpr double unnatural = 1e300;
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 }   // namespace
 
@@ -222,30 +218,7 @@ void Dynamics::explain_failure() {
 FailedPlace Dynamics::failed_place() {
   Vec r = nullptr;
   check(SNESGetFunction(snes_, &r, nullptr, nullptr));
-  const auto& network = assembler_.network();
-  const double* values = nullptr;
-  check(VecGetArrayRead(r, &values));
-  // Bodies are counted downwards from -1.
-  struct {
-    double size;
-    int place;
-  } worst{-1, 0};
-  const auto look_at = [&](int node, int unknowns, int place) {
-    if (node >= network.owned) return;
-    double size = Eigen::Map<const Eigen::VectorXd>(values + network.begin[at(node)], unknowns).norm();
-    if (!std::isfinite(size) || network.number(node) == failed_node_) size = unnatural;
-    if (size > worst.size) worst = {size, place};
-  };
-  for (std::size_t i = 0; i < network.elements.size(); ++i)
-    for (const int node : network.elements[i].node) look_at(node, 3, network.scene_element[i]);
-  for (const auto& body : network.bodies)
-    look_at(body.node, 3 + bodies::rotation_unknowns(body.properties.rotation), -1 - body.body);
-  check(VecRestoreArrayRead(r, &values));
-  if (outside_domain_ >= 0) worst = {2 * unnatural, outside_domain_};
-  if (outside_body_ >= 0) worst = {3 * unnatural, -1 - outside_body_};
-  MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, assembler_.communicator());
-  if (worst.place >= 0) return {worst.place, -1, false};
-  return {-1, -1 - worst.place, worst.size > 2 * unnatural};
+  return worst_place(assembler_, r, {failed_node_, outside_domain_, outside_body_});
 }
 
 std::string Dynamics::linear_solver() const { return describe(ksp_, linear_); }

@@ -105,9 +105,10 @@ ForceScales Assembler::force_scales() {
     mass += square(4 * inertia.norm());
   }
   for (int i = 0; i < network_.own_links; ++i) stiffness += square(2 * network_.links[at(i)].stiffness);
-  double sums[] = {load, stiffness, mass};
+  double sums[] = {load, stiffness, mass}, stiffest = 0;
+  for (const auto& material : network_.materials) stiffest = std::max(stiffest, material.axial_stiffness);
   MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, communicator_);
-  return {std::sqrt(sums[0]), std::sqrt(sums[1]), std::sqrt(sums[2])};
+  return {std::sqrt(sums[0]), std::sqrt(sums[1]), std::sqrt(sums[2]), stiffest};
 }
 
 }   // namespace cablenet::system

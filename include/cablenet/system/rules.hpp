@@ -11,11 +11,24 @@ struct ForceRule {
   elements::Tangent tangent = elements::Tangent::exact;
 };
 
+/// What stands in for the internal force on the way to equilibrium.
+struct StaticRule {
+  enum class Kind {
+    strings,   ///< f = tension/L d: linear, so that the drawn shape does not matter
+    ropes,     ///< EA, at most `stiffness`, where taut and nothing where slack: strain energy is convex. The tangent
+               ///< turns by the tension that the last correction was to bring about, at least `tension`
+    exact
+  } kind;
+  double tension = 0;     ///< [N]
+  double stiffness = 0;   ///< [N]
+};
+
 /// Root-sum-squares over all elements and loads: what Newton's tolerances are scaled by.
 struct ForceScales {
   double load;        ///< tension, weight, m v^2/L at the start [N]
   double stiffness;   ///< 2 EA/L [N/m]
   double mass;        ///< [kg]
+  double stiffest;    ///< largest EA [N]
   /// What rounding of positions does to the residual's 2-norm: eps |x| (stiffness + shift_a mass).  [N]
   /// @param furthest largest coordinate [m]
   double rounding(double furthest, double shift_a) const;

@@ -1,0 +1,81 @@
+#pragma once
+#include <petscksp.h>
+
+#include <string>
+
+#include "cablenet/solve/defaults.hpp"
+#include "cablenet/solve/observers.hpp"
+#include "cablenet/system/static_forces.hpp"
+
+/// Equilibrium from any drawn shape.  Newton's method goes there at once from a shape that is near.  From others the
+/// way is: cables as linear strings of one tension, which forget the drawn shape; soft ropes without compression, whose
+/// energy is convex; then stiffer and stiffer ropes, with a tangent that turns by the tension that the last correction
+/// was to bring about (so that what turning stretches does not stiffen it); then the cables as they are.  Where the
+/// tangent is singular or has negative pivots, masses and drag over a pseudo-time 1/shift join in.
+/// Source: the last correction's tension after Magisano, Leonetti & Garcea, IJNME 109 (2017) 1237 (mixed integration
+/// point).  Tests: tests/parallel/statics_test.cpp, tests/verification
+namespace cablenet::solve {
+
+using KrylovSolver = petsc::Handle<KSP, KSPDestroy>;
+
+/// All member functions are collective.
+class Statics {
+public:
+  /// From the network's start.  Reads the options database (-ksp_*, -pc_*, -cable_statics_monitor).
+  /// @param velocity  of the frame in which nothing moves [m/s]
+  Statics(system::Assembler& assembler, double t, const Vector3& velocity);
+
+  /// @returns whether an equilibrium was found; position() is then it, otherwise the best that was
+  bool solve();
+  Vec position() const { return x_; }
+  /// Makes position() the network's start.
+  void make_start() { forces_.start_from(x_); }
+  /// Largest unbalanced force on a node over the largest load on one.
+  double imbalance() const { return imbalance_; }
+  double largest_load() const { return largest_load_; }   ///< [N]
+  int iterations() const { return iterations_; }
+  /// It would be left after a disturbance: some pivots of the tangent are negative.
+  bool is_unstable() const { return negative_pivots_ > 0; }
+  const std::string& failure() const { return failure_; }
+  FailedPlace failed_place();
+  std::string linear_solver() const { return describe(ksp_, linear_); }
+
+private:
+  struct Goal {
+    double norm;      ///< of the residual [N]
+    int iterations;   ///< at most
+    bool searches;    ///< along the line
+    bool may_shift = true;
+  };
+
+  bool go_directly();
+  bool go_by_ropes();
+  bool stiffen(double from, double to);
+  bool settle(const system::StaticRule& rule, const Goal& goal);
+  bool correct(const system::StaticRule& rule, bool may_shift);
+  double search(const system::StaticRule& rule, bool searches);
+  double evaluate(const system::StaticRule& rule, Vec x, bool with_tangent);
+  bool factor_and_solve();
+  bool is_final(double norm, double previous) const;
+  double reference() const;
+  void conclude(bool converged);
+
+  system::Assembler& assembler_;
+  system::StaticForces forces_;
+  system::ForceScales scales_;
+  system::TangentMatrix tangent_;
+  KrylovSolver ksp_;
+  LinearSolver linear_;
+  system::Vector x_, drawn_, r_, step_, trial_;
+  double shift_ = 0;        ///< [1/s]
+  double load_ = 0;         ///< 2-norm of the loads on nodes [N]
+  double total_load_ = 0;   ///< sum of their components' absolute values [N]
+  double furthest_ = 0;     ///< largest coordinate [m]
+  double largest_load_ = 0, imbalance_ = 0;
+  int iterations_ = 0;
+  long negative_pivots_ = 0;
+  bool monitors_ = false;
+  std::string failure_;
+};
+
+}   // namespace cablenet::solve

@@ -1,0 +1,48 @@
+#pragma once
+#include "cablenet/system/assembler.hpp"
+
+/// The network's forces at an instant, in a frame in which nothing moves: without inertia and waves.
+/// Tests: tests/parallel/statics_test.cpp
+namespace cablenet::system {
+
+/// The tensions at an iterate [N].
+struct TensionRange {
+  double least;     ///< of elements that carry compression
+  double largest;   ///< absolute
+};
+
+/// All member functions are collective.
+class StaticForces {
+public:
+  /// @param velocity  of the frame [m/s]: the water and the bed move past it
+  StaticForces(Assembler& assembler, double t, const Vector3& velocity);
+  ~StaticForces();
+  StaticForces(const StaticForces&) = delete;
+  StaticForces& operator=(const StaticForces&) = delete;
+
+  /// The common velocity of all prescribed nodes from t on, zero where they have none.  [m/s]
+  /// @param window  for which it has to stay the same [s]
+  static Vector3 frame_velocity(const Assembler& assembler, double t, double window);
+
+  /// Keeps an iterate's directions, which StaticRule::ropes needs of the last one.
+  void keep(Vec x);
+  /// r = internal forces - loads; with a matrix, also dr/dx + shift^2 M + shift dr/dv, published.  [N]
+  /// @param shift [1/s]
+  /// @returns false on a rank where it is not defined
+  bool residual(const StaticRule& rule, Vec x, Vec r, TangentMatrix* tangent, double shift);
+  /// What the loads alone leave: r without internal forces.
+  void loads(Vec x, Vec r);
+  TensionRange tensions(Vec x);
+  /// Makes x, moving with the frame, the network's start.
+  void start_from(Vec x);
+
+private:
+  void place_prescribed();
+
+  Assembler& assembler_;
+  double t_;
+  Vector3 velocity_;
+  Vector v_, resting_;
+};
+
+}   // namespace cablenet::system

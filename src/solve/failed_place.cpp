@@ -1,0 +1,44 @@
+#include "failed_place.hpp"
+
+#include <cmath>
+
+namespace cablenet::solve {
+namespace {
+
+using petsc::check;
+
+/// Larger than any residual.
+constexpr double unnatural = 1e300;
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+}   // namespace
+
+FailedPlace worst_place(const system::Assembler& assembler, Vec residual, const KnownFailure& known) {
+  const auto& network = assembler.network();
+  const double* values = nullptr;
+  check(VecGetArrayRead(residual, &values));
+  // Bodies are counted downwards from -1.
+  struct {
+    double size;
+    int place;
+  } worst{-1, 0};
+  const auto look_at = [&](int node, int unknowns, int place) {
+    if (node >= network.owned) return;
+    double size = Eigen::Map<const Eigen::VectorXd>(values + network.begin[at(node)], unknowns).norm();
+    if (!std::isfinite(size) || network.number(node) == known.singular_node) size = unnatural;
+    if (size > worst.size) worst = {size, place};
+  };
+  for (std::size_t i = 0; i < network.elements.size(); ++i)
+    for (const int node : network.elements[i].node) look_at(node, 3, network.scene_element[i]);
+  for (const auto& body : network.bodies)
+    look_at(body.node, 3 + bodies::rotation_unknowns(body.properties.rotation), -1 - body.body);
+  check(VecRestoreArrayRead(residual, &values));
+  if (known.outside_element >= 0) worst = {2 * unnatural, known.outside_element};
+  if (known.outside_body >= 0) worst = {3 * unnatural, -1 - known.outside_body};
+  MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, assembler.communicator());
+  if (worst.place >= 0) return {worst.place, -1, false};
+  return {-1, -1 - worst.place, worst.size > 2 * unnatural};
+}
+
+}   // namespace cablenet::solve

@@ -1,0 +1,224 @@
+#include "cablenet/solve/statics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cablenet/petsc/queries.hpp"
+#include "failed_place.hpp"
+
+namespace cablenet::solve {
+namespace {
+
+using petsc::check;
+using system::StaticRule;
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Of the residual over the loads: where iterating stops, and what passes as equilibrium where rounding ends it before.
+constexpr double wanted = 1e-12, enough = 1e-9;
+
+/// Of rounding's own share.
+constexpr double rounding_margin = 16;
+
+/// Of the total load: a soft rope's stiffness, the strings' tension, and a slack rope's.
+constexpr double soft_stiffness = 5, string_tension = 0.5, slack_tension = 1e-4;
+
+/// Of a stage's residual over the loads before the next one.
+constexpr double passable = 1e-3;
+
+constexpr double first_shift = 0.01, largest_shift = 1e6, shift_growth = 10;   // [1/s], [1/s], 1
+
+double norm(Vec v) {
+  PetscReal value = 0;
+  check(VecNorm(v, NORM_2, &value));
+  return value;
+}
+
+double dot(Vec a, Vec b) {
+  PetscScalar value = 0;
+  check(VecDot(a, b, &value));
+  return value;
+}
+
+}   // namespace
+
+Statics::Statics(system::Assembler& assembler, double t, const Vector3& velocity)
+    : assembler_(assembler),
+      forces_(assembler, t, velocity),
+      scales_(assembler.force_scales()),
+      tangent_(assembler.make_tangent()),
+      monitors_(petsc::has_option("-cable_statics_monitor")) {
+  for (auto* vector : {&x_, &drawn_, &r_, &step_, &trial_}) *vector = assembler_.make_vector();
+  assembler_.fill_initial(drawn_, r_);
+  check(VecCopy(drawn_, x_));
+  check(KSPCreate(assembler_.communicator(), ksp_.out()));
+  linear_ = configure_linear_solver(ksp_, assembler_.network(), tangent_.matrix());
+  check(KSPSetOperators(ksp_, tangent_.matrix(), tangent_.matrix()));
+}
+
+bool Statics::solve() {
+  PetscReal sum = 0;
+  forces_.loads(x_, r_);
+  check(VecNorm(r_, NORM_1, &sum));
+  load_ = norm(r_);
+  total_load_ = std::max<double>(sum, std::numeric_limits<double>::min());
+  bool found = go_directly();
+  if (found && forces_.tensions(x_).least >= -enough * forces_.tensions(x_).largest) {
+    conclude(true);
+    return true;
+  }
+  system::Vector direct;
+  if (found) {
+    direct = assembler_.make_vector();
+    check(VecCopy(x_, direct));
+  }
+  const bool by_ropes = go_by_ropes();
+  if (!by_ropes && found) {
+    check(VecCopy(direct, x_));
+    evaluate({StaticRule::Kind::exact}, x_, true);
+    factor_and_solve();
+  }
+  found = found || by_ropes;
+  conclude(found);
+  return found;
+}
+
+/// Newton's method on the cables as they are.
+bool Statics::go_directly() {
+  shift_ = 0;
+  return settle({StaticRule::Kind::exact}, {0, 12, false, false});
+}
+
+bool Statics::go_by_ropes() {
+  const double stiffness = soft_stiffness * total_load_, tension = string_tension * total_load_;
+  const StaticRule strings{StaticRule::Kind::strings, tension, 0};
+  check(VecCopy(drawn_, x_));
+  shift_ = 0;
+  settle(strings, {passable * reference(), 4, true});
+  StaticRule ropes{StaticRule::Kind::ropes, slack_tension * total_load_, stiffness};
+  if (!settle(ropes, {passable * reference(), 80, true})) return false;
+  return stiffen(stiffness, scales_.stiffest) && settle({StaticRule::Kind::exact}, {0, 200, true});
+}
+
+/// In leaps that grow as the shape changes less.
+bool Statics::stiffen(double from, double to) {
+  double leap = 10;
+  system::Vector good = assembler_.make_vector();
+  check(VecCopy(x_, good));
+  while (from < to) {
+    const double next = std::min(from * leap, to);
+    const StaticRule ropes{StaticRule::Kind::ropes, slack_tension * total_load_, next};
+    if (settle(ropes, {next == to ? 0 : passable * reference(), 12, false})) {
+      check(VecCopy(x_, good));
+      from = next;
+      leap *= leap;
+    } else {
+      check(VecCopy(good, x_));
+      leap = std::sqrt(leap);
+      if (leap < 1.2) return false;
+    }
+  }
+  return true;
+}
+
+/// Of forces on nodes: the loads, or what cables pull with where there are none.
+double Statics::reference() const { return load_ > 0 ? load_ : scales_.load; }
+
+bool Statics::is_final(double now, double previous) const {
+  const double noise = scales_.rounding(furthest_, 0);
+  if (now <= wanted * reference()) return true;
+  return now > 0.5 * previous && (now <= enough * reference() || now <= rounding_margin * noise);
+}
+
+/// Iterates with a rule, to a norm or as far as rounding allows where that is 0.
+bool Statics::settle(const StaticRule& rule, const Goal& goal) {
+  double previous = infinite;
+  for (int i = 0;; ++i) {
+    forces_.keep(x_);
+    check(VecNorm(x_, NORM_INFINITY, &furthest_));
+    const double now = evaluate(rule, x_, true);
+    if (monitors_)
+      check(PetscPrintf(assembler_.communicator(),
+                        "  statics %d, rule %d, stiffness %.3g: residual %.6g N, shift %.3g\n", iterations_,
+                        static_cast<int>(rule.kind), rule.stiffness, now, shift_));
+    if (!std::isfinite(now)) return false;
+    if (goal.norm > 0 ? now <= goal.norm : is_final(now, previous)) return true;
+    if (i == goal.iterations) return false;
+    previous = now;
+    ++iterations_;
+    if (!correct(rule, goal.may_shift)) return false;
+    const double share = search(rule, goal.searches);
+    if (share == 0) return false;
+    check(VecAXPY(x_, share, step_));
+  }
+}
+
+/// step_ = -(tangent)^-1 r, with a shift where it takes one.  @returns false where none helps
+bool Statics::correct(const StaticRule& rule, bool may_shift) {
+  while (!factor_and_solve()) {
+    if (!may_shift) return false;
+    shift_ = std::max(first_shift, shift_growth * shift_);
+    if (shift_ > largest_shift) {
+      failure_ = "the tangent is singular";
+      return false;
+    }
+    evaluate(rule, x_, true);
+  }
+  const double used = shift_;
+  shift_ = used > first_shift ? used / shift_growth : 0;
+  return true;
+}
+
+bool Statics::factor_and_solve() {
+  check(KSPSolve(ksp_, r_, step_));
+  check(VecScale(step_, -1));
+  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+  check(KSPGetConvergedReason(ksp_, &reason));
+  negative_pivots_ = 0;
+  if (linear_.elimination) negative_pivots_ = linear_.elimination->pivots().negative;
+  return reason >= 0 && negative_pivots_ == 0 && std::isfinite(norm(step_));
+}
+
+/// How much of the step to take: all, or less where forces along it would have turned round by more than they were.
+double Statics::search(const StaticRule& rule, bool searches) {
+  const double before = -dot(step_, r_);
+  double share = 1;
+  for (int i = 0; i < 8; ++i) {
+    check(VecWAXPY(trial_, share, step_, x_));
+    const double residual = evaluate(rule, trial_, false);
+    const double after = std::isfinite(residual) ? -dot(step_, r_) : -infinite;
+    if (std::isfinite(residual) && (!searches || before <= 0 || std::abs(after) <= 0.8 * before || after > 0))
+      return share;
+    const double shorter = std::isfinite(after) ? before / (before - after) : 0.1;
+    share *= std::clamp(shorter, 0.1, 0.7);
+  }
+  return share;
+}
+
+double Statics::evaluate(const StaticRule& rule, Vec x, bool with_tangent) {
+  int in_domain = forces_.residual(rule, x, r_, with_tangent ? &tangent_ : nullptr, shift_) ? 1 : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &in_domain, 1, MPI_INT, MPI_LAND, assembler_.communicator());
+  return in_domain != 0 ? norm(r_) : infinite;
+}
+
+void Statics::conclude(bool converged) {
+  PetscReal load = 0, residual = 0;
+  forces_.loads(x_, r_);
+  check(VecNorm(r_, NORM_INFINITY, &load));
+  evaluate({StaticRule::Kind::exact}, x_, false);
+  check(VecNorm(r_, NORM_INFINITY, &residual));
+  largest_load_ = load;
+  imbalance_ = residual / (load > 0 ? load : std::max(scales_.load, std::numeric_limits<double>::min()));
+  if (!converged && failure_.empty()) failure_ = "the iteration does not settle";
+}
+
+FailedPlace Statics::failed_place() {
+  KnownFailure known;
+  if (linear_.elimination) known.singular_node = linear_.elimination->pivots().singular_node;
+  return worst_place(assembler_, r_, known);
+}
+
+}   // namespace cablenet::solve

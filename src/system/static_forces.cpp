@@ -1,0 +1,139 @@
+#include "cablenet/system/static_forces.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "static_law.hpp"
+#include "sweep.hpp"
+
+namespace cablenet::system {
+namespace {
+
+using petsc::check;
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+Eigen::Map<Vector3> as_vector(double* values) { return Eigen::Map<Vector3>(values); }
+
+/// Of the velocity: a frame that changes less is taken as steady.
+constexpr double steadiness = 1e-3;
+
+/// At how many times within the window a motion is looked at.
+constexpr int samples = 8;
+
+/// Sets the bodies' and nodes' velocities.
+void fill_velocity(const partition::LocalNetwork& network, const Vector3& velocity, Vec v) {
+  double* values = nullptr;
+  check(VecSet(v, 0));
+  check(VecGetArray(v, &values));
+  for (int i = 0; i < network.owned; ++i) as_vector(values + network.begin[at(i)]) = velocity;
+  check(VecRestoreArray(v, &values));
+}
+
+}   // namespace
+
+StaticForces::StaticForces(Assembler& assembler, double t, const Vector3& velocity)
+    : assembler_(assembler),
+      t_(t),
+      velocity_(velocity),
+      v_(assembler.make_vector()),
+      resting_(assembler.make_vector()) {
+  fill_velocity(assembler_.network_, velocity_, v_);
+  assembler_.start_prescribed(t_);
+  if (!assembler_.network_.surroundings.fluid) return;
+  assembler_.calm_ = assembler_.network_.surroundings.fluid;
+  assembler_.calm_->waves.clear();
+}
+
+StaticForces::~StaticForces() { assembler_.calm_.reset(); }
+
+Vector3 StaticForces::frame_velocity(const Assembler& assembler, double t, double window) {
+  double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300};
+  for (const auto& [node, motion] : assembler.network_.prescribed)
+    for (int i = 0; i <= samples; ++i) {
+      const double when = std::min(t + window * i / samples, motion.last_time());
+      const Vector3 v = motion.at(when).v;
+      for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], v(k)), high[k] = std::max(high[k], v(k));
+    }
+  MPI_Allreduce(MPI_IN_PLACE, low, 3, MPI_DOUBLE, MPI_MIN, assembler.communicator_);
+  MPI_Allreduce(MPI_IN_PLACE, high, 3, MPI_DOUBLE, MPI_MAX, assembler.communicator_);
+  const Vector3 least(low[0], low[1], low[2]), most(high[0], high[1], high[2]);
+  const Vector3 mean = 0.5 * (least + most);
+  return (most - least).norm() <= steadiness * mean.norm() ? mean : Vector3(0, 0, 0);
+}
+
+void StaticForces::place_prescribed() {
+  assembler_.evaluated_ = {};
+  for (std::size_t i = 0; i < assembler_.prescribed_.size(); ++i) {
+    NodeMotion& here = assembler_.outside_[at(assembler_.network_.prescribed[i].node - assembler_.network_.owned)];
+    as_vector(here.x) = assembler_.prescribed_[i].start.x;
+    as_vector(here.v) = velocity_;
+    as_vector(here.a).setZero();
+  }
+}
+
+void StaticForces::keep(Vec x) {
+  Assembler::Access access(assembler_, x, v_, nullptr, nullptr);
+  access.begin_exchange();
+  place_prescribed();
+  access.finish_exchange();
+  assembler_.bodies_->begin_step(access.data);
+  assembler_.record_starts(StaticLaw{}, access);
+}
+
+bool StaticForces::residual(const StaticRule& rule, Vec x, Vec r, TangentMatrix* tangent, double shift) {
+  const Stage instant{t_, 0, 0};
+  Assembler::Access access(assembler_, x, v_, resting_, r);
+  access.begin_exchange();
+  place_prescribed();
+  assembler_.coincident_ = -1;
+  std::optional<TangentRequest> request;
+  if (tangent != nullptr) request.emplace(TangentRequest{*tangent, shift, shift * shift});
+  const TangentRequest* const wanted = request ? &*request : nullptr;
+  const bool in_domain = rule.kind == StaticRule::Kind::exact
+                             ? assembler_.run(StageLaw<true>{assembler_.rule_.tangent}, instant, access, wanted)
+                             : assembler_.run(StaticLaw{rule}, instant, access, wanted);
+  assembler_.add_loads(t_, access, wanted);
+  access.close();
+  if (tangent != nullptr) tangent->publish();
+  return in_domain;
+}
+
+void StaticForces::loads(Vec x, Vec r) {
+  Assembler::Access access(assembler_, x, v_, resting_, r);
+  access.begin_exchange();
+  place_prescribed();
+  assembler_.run(NoLaw{}, {t_, 0, 0}, access, nullptr);
+  assembler_.add_loads(t_, access, nullptr);
+}
+
+TensionRange StaticForces::tensions(Vec x) {
+  const LocalState& state = assembler_.observe(t_, x, v_, resting_);
+  double range[2] = {0, 0};   // what counts against least, and largest
+  const auto& network = assembler_.network_;
+  for_each_element(network, {0, network.own_elements}, [&](std::size_t, const partition::LocalElement& e) {
+    const elements::CableMaterial& material = network.materials[at(e.material)];
+    const double T = elements::cable_tension(material, e.length, {state.chord(e).d, Vector3::Zero()});
+    range[0] = std::max(range[0], -T);
+    range[1] = std::max(range[1], std::abs(T));
+    return true;
+  });
+  MPI_Allreduce(MPI_IN_PLACE, range, 2, MPI_DOUBLE, MPI_MAX, assembler_.communicator_);
+  return {-range[0], range[1]};
+}
+
+void StaticForces::start_from(Vec x) {
+  const LocalState state = assembler_.observe(t_, x, v_, resting_);
+  partition::LocalNetwork& network = assembler_.network_;
+  for (int i = 0; i < network.nodes; ++i) {
+    network.position[at(i)] = LocalState::at(state.x, i);
+    network.velocity[at(i)] =
+        network.is_free(i) || network.is_carried(i) ? velocity_ : Vector3(LocalState::at(state.v, i));
+  }
+  for (std::size_t b = 0; b < network.bodies.size(); ++b) {
+    partition::LocalBody& body = network.bodies[b];
+    body.start = bodies::rotation_state(body.properties.rotation, state.bodies[b].attitude, Vector3::Zero());
+  }
+}
+
+}   // namespace cablenet::system
