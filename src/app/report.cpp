@@ -46,7 +46,18 @@ void emit_seconds(YAML::Emitter& yaml, const char* key, const std::vector<Report
   yaml << YAML::EndMap;
 }
 
+void emit_statics(YAML::Emitter& yaml, const Report::Statics& statics) {
+  const auto number = [](double value) { return fmt::format("{:.6g}", value); };
+  yaml << YAML::Key << "statics" << YAML::Value << YAML::BeginMap;
+  yaml << YAML::Key << "iterations" << YAML::Value << statics.iterations;
+  yaml << YAML::Key << "largest_unbalanced_force_over_load" << YAML::Value << number(statics.imbalance);
+  yaml << YAML::Key << "largest_load_on_a_node" << YAML::Value << number(statics.largest_load);
+  yaml << YAML::Key << "frame_velocity" << YAML::Value << YAML::Flow << YAML::BeginSeq << number(statics.frame.x())
+       << number(statics.frame.y()) << number(statics.frame.z()) << YAML::EndSeq << YAML::EndMap;
+}
+
 void emit_solution(YAML::Emitter& yaml, const Report& report) {
+  if (report.statics) emit_statics(yaml, *report.statics);
   yaml << YAML::Key << "scheme" << YAML::Value << report.scheme;
   yaml << YAML::Key << "linear_solver" << YAML::Value << report.linear_solver;
   yaml << YAML::Key << "steps" << YAML::Value << report.counts.steps;
@@ -78,6 +89,15 @@ std::string describe(const scene::Scene& scene, const network::Network& network)
   return fmt::format("{} cables, {} nets, {} nodes ({} held or moved), {} elements, {} bodies, {} unknowns",
                      scene.cables.size(), scene.nets.size(), network.position.size(), network.prescribed.size(),
                      network.elements.size(), network.bodies.size(), network.unknowns());
+}
+
+std::string describe(const Report::Statics& statics) {
+  const Vector3& v = statics.frame;
+  const std::string frame =
+      v.isZero(0) ? "" : fmt::format(", moving at ({:.6g}, {:.6g}, {:.6g}) m/s", v.x(), v.y(), v.z());
+  return fmt::format(
+      "equilibrium{}: largest unbalanced force {:.2g} of the largest load on a node ({:.4g} N), {} iterations", frame,
+      statics.imbalance, statics.largest_load, statics.iterations);
 }
 
 void write_report(const std::filesystem::path& path, const scene::Scene& scene, const network::Network& network,

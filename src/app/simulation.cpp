@@ -12,6 +12,8 @@
 #include "cablenet/output/frames.hpp"
 #include "cablenet/output/probes.hpp"
 #include "cablenet/petsc/solver_types.hpp"
+#include "cablenet/solve/statics.hpp"
+#include "choices.hpp"
 
 namespace cablenet::app {
 namespace {
@@ -45,53 +47,14 @@ Report::Phase slowest(Report::Phase phase) {
   return phase;
 }
 
-std::string text_option(const char* name) {
-  char value[64] = "";
-  PetscBool found = PETSC_FALSE;
-  check(PetscOptionsGetString(nullptr, nullptr, name, value, sizeof(value), &found));
-  return value;
-}
+/// For which the tow points' velocity has to stay the same if the static start is to move with them: of the run, or
+/// [s] where there is none.
+constexpr double steady_part = 0.02, steady_window = 1;
 
-/// The scene's, with what the command line overrides.  A spectral radius asks for the scheme that has one.
-scene::Time chosen_time(scene::Time time) {
-  PetscBool given = PETSC_FALSE;
-  check(PetscOptionsGetReal(nullptr, nullptr, "-ts_alpha_radius", &time.spectral_radius, &given));
-  if (given && !(time.spectral_radius >= 0 && time.spectral_radius <= 1))
-    throw InputError(
-        fmt::format("-ts_alpha_radius: {} is not allowed; expected a number from 0 to 1", time.spectral_radius));
-  if (given && time.scheme == scene::Scheme::energy_momentum) time.scheme = scene::Scheme::generalized_alpha;
-  const std::string type = text_option("-ts_type");
-  if (!type.empty() && type != TSALPHA2)
-    throw InputError(fmt::format("-ts_type: `{}` is not allowed; every scheme here runs in PETSc's alpha2", type));
-  return time;
-}
-
-system::ForceRule force_rule(const scene::Time& time) {
-  system::ForceRule rule{time.scheme, time.axial_dissipation, elements::Tangent::exact};
-  const std::string tangent = text_option("-cable_tangent");
-  if (!tangent.empty() && tangent != "exact" && tangent != "secant")
-    throw InputError(fmt::format("-cable_tangent: `{}` is not allowed; expected exact or secant", tangent));
-  if (tangent == "secant") rule.tangent = elements::Tangent::secant;
-  PetscBool given = PETSC_FALSE;
-  if (time.scheme != scene::Scheme::energy_momentum) return rule;
-  check(PetscOptionsGetReal(nullptr, nullptr, "-cable_axial_dissipation", &rule.axial_dissipation, &given));
-  if (!(rule.axial_dissipation >= 0 && rule.axial_dissipation <= 0.5))
-    throw InputError(fmt::format("-cable_axial_dissipation: {} is not allowed; expected a number from 0 to 0.5",
-                                 rule.axial_dissipation));
-  return rule;
-}
-
-std::string scheme_name(const scene::Time& time, const system::ForceRule& rule) {
-  switch (time.scheme) {
-    case scene::Scheme::energy_momentum:
-      return fmt::format("energy_momentum, axial dissipation {}", rule.axial_dissipation);
-    case scene::Scheme::generalized_alpha:
-      return fmt::format("generalized_alpha, spectral radius {}", time.spectral_radius);
-    case scene::Scheme::plain:
-      return fmt::format("plain, spectral radius {}", time.spectral_radius);
-  }
-  return "";
-}
+constexpr const char* statics_advice =
+    "See that every part hangs on something fixed or afloat; try shape: catenary or a drawn shape that is nearer, or "
+    "let "
+    "the scene settle in time with axial_damping";
 
 class Simulation {
 public:
@@ -105,25 +68,16 @@ public:
     MPI_Comm_rank(PETSC_COMM_WORLD, &rank_);
     MPI_Comm_size(PETSC_COMM_WORLD, &ranks_);
     assembler_.emplace(partition::make_local_network(network_, partition_, rank_), rule_, PETSC_COMM_WORLD);
-    dynamics_.emplace(*assembler_, time_, scene_.output.interval);
     if (rank_ == 0)
-      fmt::print("{}: {}; {} rank{}, {}, {}\n", scene_.file, describe(scene_, network_), ranks_, ranks_ == 1 ? "" : "s",
-                 scheme_name(time_, rule_), dynamics_->linear_solver());
+      fmt::print("{}: {}; {} rank{}\n", scene_.file, describe(scene_, network_), ranks_, ranks_ == 1 ? "" : "s");
   }
 
   int run() {
     open_output();
     watch_.lap(set_up_);
-    Progress progress(scene_.time.start, scene_.time.end);
-    const solve::Verdict verdict = dynamics_->run({
-        [&](const solve::Instant& instant) { write(instant); },
-        [&](double t, double dt, const solve::Counts& counts) {
-          if (rank_ == 0) progress.step(t, dt, counts.steps, counts.newton);
-        },
-    });
-    finish_output();
-    if (rank_ == 0) progress.finish(report_.reached, dynamics_->counts().steps, dynamics_->counts().newton);
-    return conclude(verdict);
+    if (scene_.starts_static && !find_equilibrium()) return conclude_statics(false);
+    if (scene_.is_static) return conclude_statics(true);
+    return run_dynamics();
   }
 
 private:
@@ -145,6 +99,60 @@ private:
       }
     MPI_Bcast(&failed, 1, MPI_INT, 0, PETSC_COMM_WORLD);
     if (failed) throw OutputError(problem);
+  }
+
+  /// Makes it the network's start.
+  bool find_equilibrium() {
+    const double window = time_.end > time_.start ? steady_part * (time_.end - time_.start) : steady_window;
+    const Vector3 frame = system::StaticForces::frame_velocity(*assembler_, time_.start, window);
+    statics_.emplace(*assembler_, time_.start, frame);
+    const bool found = statics_->solve();
+    watch_.lap(equilibrium_);
+    report_.statics = {frame, statics_->imbalance(), statics_->largest_load(), statics_->iterations()};
+    if (rank_ == 0 && found) fmt::print("{}\n", describe(*report_.statics));
+    if (rank_ == 0 && found && statics_->is_unstable())
+      fmt::print(stderr, "cablenet: note: the equilibrium is not stable: a disturbance would leave it\n");
+    return found;
+  }
+
+  /// Writes what was found, or the best that was.
+  int conclude_statics(bool found) {
+    if (!found)
+      report_.message = fmt::format(
+          "no equilibrium was found: {}; the largest unbalanced force is {:.3g} of the largest "
+          "load on a node, near {}",
+          statics_->failure(), statics_->imbalance(), place(statics_->failed_place()));
+    const system::Vector x = assembler_->make_vector(), v = assembler_->make_vector(), a = assembler_->make_vector();
+    statics_->make_start();
+    assembler_->fill_initial(x, v);
+    write({time_.start, 0, x, v, a});
+    finish_output();
+    report_.scheme = "static";
+    report_.linear_solver = statics_->linear_solver();
+    return conclude(found ? solve::Verdict::finished : solve::Verdict::failed, statics_advice);
+  }
+
+  int run_dynamics() {
+    if (statics_) statics_->make_start();
+    statics_.reset();
+    dynamics_.emplace(*assembler_, time_, scene_.output.interval);
+    if (rank_ == 0) fmt::print("{}, {}\n", scheme_name(time_, rule_), dynamics_->linear_solver());
+    watch_.lap(set_up_);
+    Progress progress(time_.start, time_.end);
+    const solve::Verdict verdict = dynamics_->run({
+        [&](const solve::Instant& instant) { write(instant); },
+        [&](double t, double dt, const solve::Counts& counts) {
+          if (rank_ == 0) progress.step(t, dt, counts.steps, counts.newton);
+        },
+    });
+    finish_output();
+    report_.counts = dynamics_->counts();
+    report_.scheme = scheme_name(time_, rule_);
+    report_.linear_solver = dynamics_->linear_solver();
+    if (rank_ == 0) progress.finish(report_.reached, report_.counts.steps, report_.counts.newton);
+    if (verdict == solve::Verdict::failed)
+      report_.message = fmt::format("at t = {:.9g} s the solver could not go on {}", report_.reached, explanation());
+    return conclude(verdict, verdict == solve::Verdict::failed ? advice() : "");
   }
 
   void write(const solve::Instant& instant) {
@@ -178,23 +186,17 @@ private:
     std::abort();
   }
 
-  int conclude(solve::Verdict verdict) {
+  int conclude(solve::Verdict verdict, const std::string& advice) {
     report_.status = "finished";
     if (verdict == solve::Verdict::stopped) report_.status = "stopped";
-    if (verdict == solve::Verdict::failed) {
-      report_.status = "failed";
-      report_.message = fmt::format("at t = {:.9g} s the solver could not go on {}", report_.reached, explanation());
-    }
-    report_.scheme = scheme_name(time_, rule_);
-    report_.linear_solver = dynamics_->linear_solver();
-    report_.counts = dynamics_->counts();
-    for (const auto& phase : {set_up_, solving_, writing_}) report_.phases.push_back(slowest(phase));
+    if (verdict == solve::Verdict::failed) report_.status = "failed";
+    for (const auto& phase : {set_up_, equilibrium_, solving_, writing_}) report_.phases.push_back(slowest(phase));
     write_report(directory_ / "run.yaml", scene_, network_, partition_, report_, PETSC_COMM_WORLD);
     if (rank_ == 0) fmt::print("results in {}: open {} in ParaView\n", directory_.string(), indexes());
     if (verdict != solve::Verdict::failed) return 0;
     if (rank_ == 0)
-      fmt::print(stderr, "cablenet: error: {}. The state at that time is saved as the last frame in {}. {}\n",
-                 report_.message, directory_.string(), advice());
+      fmt::print(stderr, "cablenet: error: {}. The {} is saved as the last frame in {}. {}\n", report_.message,
+                 dynamics_ ? "state at that time" : "last shape", directory_.string(), advice);
     return 3;
   }
 
@@ -207,6 +209,11 @@ private:
   bool is_singular_attitude() const {
     return failed_.left_domain &&
            network_.bodies[static_cast<std::size_t>(failed_.body)].properties.rotation == bodies::Rotation::euler;
+  }
+
+  std::string place(const solve::FailedPlace& failed) const {
+    if (failed.body < 0) return fmt::format("cable {}", network_.element_name(failed.element));
+    return fmt::format("body {}", network_.bodies[static_cast<std::size_t>(failed.body)].name);
   }
 
   /// Where and why.
@@ -239,6 +246,7 @@ private:
   int rank_ = 0;
   int ranks_ = 1;
   std::optional<system::Assembler> assembler_;
+  std::optional<solve::Statics> statics_;   ///< until the run goes on from it
   std::optional<solve::Dynamics> dynamics_;
   std::optional<output::Frames> frames_;
   std::optional<output::Probes> probes_;
@@ -247,6 +255,7 @@ private:
   Report report_;
   solve::FailedPlace failed_;
   Report::Phase set_up_{"set_up"};
+  Report::Phase equilibrium_{"statics"};
   Report::Phase solving_{"solve"};
   Report::Phase writing_{"output"};
 };

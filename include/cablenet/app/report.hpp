@@ -2,6 +2,7 @@
 #include <mpi.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,6 +22,13 @@ struct Report {
   std::string scheme;
   std::string linear_solver;
   solve::Counts counts;
+  struct Statics {
+    Vector3 frame;         ///< velocity [m/s]
+    double imbalance;      ///< largest unbalanced force over the largest load on a node
+    double largest_load;   ///< [N]
+    int iterations;
+  };
+  std::optional<Statics> statics;   ///< where there was an equilibrium to find
   /// Of a part of the run: [s] of wall time, and of this process's computing.
   struct Phase {
     std::string name;
@@ -35,6 +43,9 @@ std::string scene_hash(const scene::Scene& scene);
 
 /// "12 nodes, 11 elements, ..." for the terminal.
 std::string describe(const scene::Scene& scene, const network::Network& network);
+
+/// "equilibrium: largest unbalanced force 1e-12 of ..." for the terminal.
+std::string describe(const Report::Statics& statics);
 
 /// Writes `path` by tmp + rename on rank 0.  Collective.
 /// @throws OutputError on every rank alike.
