@@ -43,7 +43,7 @@ void Schedule::advance(double taken, bool retried) {
   const double old_limit = limit_;
   good_ = retried ? 0 : good_ + 1;
   if (retried) limit_ = std::min(limit_, taken);
-  if (limit_ < step_ && good_ >= steps_before_growth) {
+  if (grows_ && limit_ < step_ && good_ >= steps_before_growth) {
     limit_ = std::min(step_, 2 * limit_);
     good_ = 0;
   }
@@ -51,6 +51,8 @@ void Schedule::advance(double taken, bool retried) {
 }
 
 void Schedule::set_limit(double wanted) {
+  grows_ = false;
+  if (wanted == limit_) return;
   limit_ = wanted;
   plan();
 }

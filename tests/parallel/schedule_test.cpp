@@ -147,3 +147,20 @@ TEST(Schedule, ALimitIsCutToTheNextOutput) {
   schedule.set_limit(3);
   EXPECT_DOUBLE_EQ(schedule.next_step(), 1);
 }
+
+TEST(Schedule, ALimitSetFromOutsideIsKept) {
+  Schedule schedule(0, 100, 1, 0);
+  schedule.advance(1.0 / 16, true);
+  schedule.set_limit(1.0 / 16);
+  for (int i = 0; i < 40; ++i) {
+    EXPECT_LE(schedule.next_step(), 1.0 / 16 * (1 + 1e-8));
+    schedule.advance(schedule.next_step(), false);
+    schedule.set_limit(1.0 / 16);
+  }
+  schedule.set_limit(4);
+  EXPECT_GT(schedule.next_step(), 3.5) << "longer than at the start";
+  const double h = schedule.next_step();
+  schedule.advance(h, false);
+  schedule.set_limit(4);
+  EXPECT_EQ(schedule.next_step(), h) << "the plan stands";
+}

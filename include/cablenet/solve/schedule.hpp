@@ -18,7 +18,7 @@ public:
   /// @param retried the step failed before: keep the smaller step; after four good ones it doubles, until it is back at
   /// `step`.
   void advance(double taken, bool retried);
-  /// The stepper itself chooses steps: its next is cut to the next output.
+  /// Steps are chosen elsewhere, and cut to the next output; they no longer grow by themselves.
   void set_limit(double wanted);
   bool at_output() const { return at_output_; }
   bool at_end() const { return t_ >= end_; }
@@ -29,7 +29,8 @@ private:
 
   double start_, end_, step_, interval_;
   double t_;
-  double limit_;       ///< current longest step
+  double limit_;   ///< current longest step
+  bool grows_ = true;
   int good_ = 0;       ///< steps since the last retry or growth
   long outputs_ = 0;   ///< passed after the start
   bool at_output_ = true;
