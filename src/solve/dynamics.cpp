@@ -20,6 +20,9 @@ using petsc::has_option;
 /// Over the step that was asked for: where shrinking it ends.
 constexpr double smallest_step = 1e-10;
 
+/// Halvings that bring an adaptive step below that.
+constexpr PetscInt most_rejections = 40;
+
 /// Newton's tolerance over the forces at the start.
 constexpr double relative_force_tolerance = 1e-12;
 
@@ -58,6 +61,7 @@ void Dynamics::create_stepper() {
   check(TSSetExactFinalTime(stepper_, TS_EXACTFINALTIME_STEPOVER));
   check(TSSetMaxSNESFailures(stepper_, petsc::unlimited));
   check(TSSetErrorIfStepFails(stepper_, PETSC_FALSE));
+  if (time_.tolerance) check(TSSetMaxStepRejections(stepper_, most_rejections));
   TSAdapt adapt = nullptr;
   check(TSGetAdapt(stepper_, &adapt));
   check(TSAdaptSetType(adapt, TSADAPTNONE));
@@ -98,6 +102,10 @@ void Dynamics::read_limits() {
   check(TSGetMaxTime(stepper_, &end));
   const double interval = schedule_.interval();
   schedule_ = Schedule(time_.start, std::min<double>(end, time_.end), time_.step, interval);
+  if (!time_.tolerance || has_option("-ts_adapt_type")) return;
+  const double span = time_.end - time_.start, longest = interval > 0 ? std::min(interval, span) : span;
+  control_.emplace(adapt, *time_.tolerance, time_.step, longest, smallest_step * time_.step);
+  check(TSAdaptSetCheckStage(adapt, check_error));
 }
 
 Instant Dynamics::instant() const { return {schedule_.time(), counts_.steps, x_, v_, a_}; }
@@ -139,7 +147,9 @@ Verdict Dynamics::run(const Observers& observers) {
     if (schedule_.at_output() || exhausted || outside_body_ >= 0) observers.output(instant());
     if (outside_body_ >= 0) return Verdict::failed;
     if (exhausted) {
-      failure_ = fmt::format("Newton's method succeeds only with steps as short as {:.3g} s", last_step_);
+      if (control_) failure_ = control_->refusal(last_step_);
+      if (failure_.empty())
+        failure_ = fmt::format("Newton's method succeeds only with steps as short as {:.3g} s", last_step_);
       return Verdict::failed;
     }
   }
@@ -186,7 +196,8 @@ void Dynamics::accept(double t, double taken, bool retried) {
   PetscReal next = 0;
   check(TSGetTimeStep(stepper_, &next));
   schedule_.advance(taken, retried);
-  if (user_adapts_) schedule_.set_limit(next);
+  if (control_) control_->advance(retried);
+  if (control_ || user_adapts_) schedule_.set_limit(control_ ? control_->limit() : next);
   check(TSMonitor(stepper_, static_cast<PetscInt>(counts_.steps), schedule_.time(), x_));
 }
 
@@ -207,6 +218,10 @@ void Dynamics::explain_failure() {
   PetscReal dt = 0;
   check(SNESGetConvergedReason(snes_, &reason));
   check(TSGetTimeStep(stepper_, &dt));
+  if (reason > 0 && control_) {
+    failure_ = control_->refusal(alpha_.dt);
+    return;
+  }
   failure_ = fmt::format("Newton's method failed ({}) with steps down to {:.3g} s", SNESConvergedReasons[reason], dt);
   if (!linear_.elimination) return;
   const PivotReport pivots = linear_.elimination->pivots();

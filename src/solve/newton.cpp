@@ -120,7 +120,24 @@ PetscErrorCode Dynamics::before_stage(TS ts, PetscReal) noexcept {
   Dynamics* run = nullptr;
   PetscCall(TSGetApplicationContext(ts, &run));
   run->outside_domain_ = run->outside_body_ = -1;
+  if (run->control_) run->control_->begin_attempt();
   if (!read_alpha_step(ts).is_start() && run->attempts_++ == 1) run->choose_line_search(true);
+  PetscFunctionReturn(petsc::success);
+}
+
+/// PETSc asks after each of its stages that Newton's method solved.
+PetscErrorCode Dynamics::check_error(TSAdapt, TS ts, PetscReal, Vec, PetscBool* accept) noexcept {
+  PetscFunctionBeginUser;
+  Dynamics* run = nullptr;
+  PetscCall(TSGetApplicationContext(ts, &run));
+  if (run->alpha_.is_start()) PetscFunctionReturn(petsc::success);
+  Vec end = nullptr;
+  PetscCall(SNESGetSolution(run->snes_, &end));
+  const StepStart start{run->x_, run->v_, run->a_};
+  if (run->control_->accepts(run->alpha_, run->assembler_.network(), start, end)) PetscFunctionReturn(petsc::success);
+  *accept = PETSC_FALSE;
+  // Newton's method did well, so the next attempt need not be careful.
+  if (run->attempts_ == 1) run->attempts_ = 0;
   PetscFunctionReturn(petsc::success);
 }
 

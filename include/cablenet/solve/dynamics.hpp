@@ -1,6 +1,7 @@
 #pragma once
 #include <petscts.h>
 
+#include <optional>
 #include <string>
 
 #include "cablenet/scene/scene.hpp"
@@ -9,6 +10,7 @@
 #include "cablenet/solve/newton_convergence.hpp"
 #include "cablenet/solve/observers.hpp"
 #include "cablenet/solve/schedule.hpp"
+#include "cablenet/solve/step_control.hpp"
 #include "cablenet/solve/tangent_reuse.hpp"
 #include "cablenet/system/assembler.hpp"
 
@@ -55,10 +57,12 @@ private:
   static PetscErrorCode converged(SNES, PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm,
                                   SNESConvergedReason* reason, void* self) noexcept;
   static PetscErrorCode before_stage(TS, PetscReal t) noexcept;
+  static PetscErrorCode check_error(TSAdapt, TS, PetscReal t, Vec x, PetscBool* accept) noexcept;
 
   system::Assembler& assembler_;
   scene::Time time_;
   Schedule schedule_;
+  std::optional<StepControl> control_;   ///< of adaptive steps
   system::ForceScales scales_;
   system::Vector x_, v_, a_;   ///< a_: what is reported and predicted with
   system::Vector x0_, v0_;     ///< at the step's start

@@ -1,0 +1,257 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "../support/trajectory.hpp"
+
+using namespace cablenet;
+using namespace cablenet::test;
+using scene::Scheme;
+using solve::Verdict;
+
+namespace {
+
+struct Case {
+  const char* name;
+  Scheme scheme;
+  double radius;
+  friend void PrintTo(const Case& item, std::ostream* out) { *out << item.name; }
+};
+
+scene::Time time_of(const Case& item, double end, double step, std::optional<double> tolerance) {
+  return {0, end, step, item.scheme, item.radius, 0, tolerance};
+}
+
+const Case energy_momentum{"energy_momentum", Scheme::energy_momentum, 1};
+
+/// Nothing in it happens suddenly.
+const std::string swinging = R"(
+environment: {gravity: 9.81}
+points:
+  top: {position: [0, 0, 0], motion: {harmonic: {amplitude: [0, 0.05, 0.1], period: 0.9}}}
+  tip: {position: [3, 0, 0], mass: 1, velocity: [0, 2, 0]}
+cables: {chain: {type: damped, from: top, to: tip, elements: 3}}
+)";
+
+/// The mass falls 0.5 m before the rope is taut, 0.319 s after the start, and is thrown up again.
+const std::string snapping = R"(
+environment: {gravity: 9.81}
+points:
+  top: {position: [0, 0, 0], motion: fixed}
+  tip: {position: [0, 0, -0.5], mass: 1}
+cables: {rope: {type: slack, from: top, to: tip, elements: 1, length: 1}}
+)";
+
+class Adaptive : public testing::TestWithParam<Case> {
+protected:
+  static Trajectory run(const std::string& text, double end, double step, std::optional<double> tolerance,
+                        double interval, MPI_Comm communicator = PETSC_COMM_WORLD) {
+    return Trajectory(text, time_of(GetParam(), end, step, tolerance), interval, communicator);
+  }
+};
+
+}   // namespace
+
+TEST_P(Adaptive, AStepIsRejectedForMoreThanItsError) {
+  const double step = 0.01;
+  const Trajectory exact(swinging, time_of(energy_momentum, step, step / 64, {}), step, PETSC_COMM_SELF);
+  const Trajectory once = run(swinging, step, step, {}, step);
+  double error = 0;
+  for (const Vector3& apart : difference(once.x, exact.x)) error = std::max(error, apart.norm());
+  EXPECT_EQ(run(swinging, step, step, 2 * error, step).counts().rejected, 0);
+  EXPECT_GT(run(swinging, step, step, error / 2, step).counts().rejected, 0);
+}
+
+TEST_P(Adaptive, ErrorsFollowTheTolerance) {
+  const Trajectory exact(swinging, time_of(energy_momentum, 1, 1e-4, {}), 1, PETSC_COMM_SELF);
+  std::vector<double> errors;
+  for (const double tolerance : {64e-6, 1e-6, 1e-6 / 64}) {
+    const Trajectory coarse = run(swinging, 1, 0.01, tolerance, 1);
+    EXPECT_EQ(coarse.verdict, Verdict::finished);
+    errors.push_back(size(difference(coarse.x, exact.x)));
+  }
+  // The step goes with tolerance^(1/3), halved or doubled, and the error with its square.
+  for (std::size_t i = 1; i < errors.size(); ++i) {
+    EXPECT_GE(errors[i - 1] / errors[i], 8) << "errors " << errors[i - 1] << " and " << errors[i];
+    EXPECT_LE(errors[i - 1] / errors[i], 32) << "errors " << errors[i - 1] << " and " << errors[i];
+  }
+}
+
+TEST_P(Adaptive, StepsShrinkInASnapAndGrowBack) {
+  const Trajectory fall = run(snapping, 1, 0.02, 1e-5, 0.1);
+  EXPECT_EQ(fall.verdict, Verdict::finished);
+  EXPECT_GT(fall.counts().rejected, 0);
+  const auto shortest = std::min_element(fall.steps.begin(), fall.steps.end());
+  const double when = std::accumulate(fall.steps.begin(), shortest, 0.0);
+  EXPECT_GT(when, 0.3);
+  EXPECT_LT(when, 0.5);
+  const double before = *std::max_element(fall.steps.begin(), shortest);
+  const double after = *std::max_element(shortest, fall.steps.end());
+  EXPECT_GT(before, 8 * *shortest);
+  EXPECT_GE(after, before);
+}
+
+TEST_P(Adaptive, OutputsAreMetExactly) {
+  const Trajectory fall = run(snapping, 1, 0.02, 1e-5, 0.3);
+  EXPECT_EQ(fall.outputs, (std::vector<double>{0, 0.3, 2 * 0.3, 3 * 0.3, 1}));
+}
+
+TEST_P(Adaptive, AllNumbersOfRanksTakeTheSameSteps) {
+  const Trajectory one = run(swinging, 1, 0.01, 1e-6, 0.25, PETSC_COMM_SELF), all = run(swinging, 1, 0.01, 1e-6, 0.25);
+  EXPECT_EQ(one.counts().rejected, all.counts().rejected);
+  ASSERT_EQ(one.steps.size(), all.steps.size());
+  for (std::size_t i = 0; i < one.steps.size(); ++i) EXPECT_NEAR(one.steps[i], all.steps[i], 1e-12);
+  EXPECT_LE(size(difference(one.x, all.x)), 1e-9 * size(one.x));
+}
+
+TEST_P(Adaptive, RejectedStepsLeaveNoTrace) {
+  const Trajectory retried = run(swinging, 0.02, 0.02, 1e-6, 0);
+  ASSERT_FALSE(retried.steps.empty());
+  EXPECT_GT(retried.counts().rejected, 0);
+  const Trajectory direct = run(swinging, 0.02, retried.steps.front(), 1e-6, 0);
+  EXPECT_EQ(direct.counts().rejected, 0);
+  EXPECT_LE(size(difference(retried.x, direct.x)), 1e-12);
+  EXPECT_LE(size(difference(retried.v, direct.v)), 1e-10);
+}
+
+TEST_P(Adaptive, FailuresOfNewtonShortenStepsAsWell) {
+  const Option few("-snes_max_it", "3");
+  const Option tight("-snes_atol", "1e-9");
+  const Trajectory shaken = run(swinging, 1.6, 0.2, 1, 0.4);
+  EXPECT_EQ(shaken.verdict, Verdict::finished);
+  EXPECT_GT(shaken.counts().rejected, 0);
+  EXPECT_EQ(shaken.outputs, (std::vector<double>{0, 0.4, 0.8, 0.4 * 3, 1.6}));
+}
+
+TEST_P(Adaptive, AToleranceOutOfReachIsToldOf) {
+  Trajectory stuck = run(swinging, 1, 0.01, 1e-30, 0.5);
+  EXPECT_EQ(stuck.verdict, Verdict::failed);
+  EXPECT_NE(stuck.dynamics().failure().find("tolerance"), std::string::npos) << stuck.dynamics().failure();
+  const Option never("-ts_max_reject", "0");
+  Trajectory refused = run(swinging, 1, 0.01, 1e-9, 0.5);
+  EXPECT_EQ(refused.verdict, Verdict::failed);
+  EXPECT_TRUE(refused.steps.empty());
+  EXPECT_NE(refused.dynamics().failure().find("tolerance"), std::string::npos) << refused.dynamics().failure();
+}
+
+TEST_P(Adaptive, PetscsOptionsWin) {
+  const Option fixed("-ts_adapt_type", "none");
+  const Trajectory coarse = run(swinging, 1, 0.1, 1e-9, 0.5);
+  EXPECT_EQ(coarse.counts().steps, 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Schemes, Adaptive,
+                         testing::Values(energy_momentum, Case{"generalized_alpha", Scheme::generalized_alpha, 0.8},
+                                         Case{"generalized_alpha_0", Scheme::generalized_alpha, 0}),
+                         [](const auto& item) { return item.param.name; });
+
+namespace {
+
+/// x'' = -x by the generalised-alpha method, its force taken at the stage, which for x'' = -x is TSALPHA2's own.
+class Oscillator {
+public:
+  explicit Oscillator(double radius)
+      : alpha_{(2 - radius) / (1 + radius), 1 / (1 + radius), (3 - radius) / (1 + radius) / 2, 0, 0} {
+    alpha_.beta = (1 + alpha_.alpha_m - alpha_.alpha_f) * (1 + alpha_.alpha_m - alpha_.alpha_f) / 4;
+  }
+
+  void step(double dt) {
+    alpha_.dt = dt;
+    const auto& [am, af, gamma, beta, h] = alpha_;
+    start_x = x, start_v = v, start_kept = kept;
+    const double guess = x + dt * v + dt * dt * (0.5 - beta) * a_;
+    const double next = -((1 - am) * a_ + (1 - af) * x + af * guess) / (am + af * beta * dt * dt);
+    x = guess + beta * dt * dt * next;
+    v += dt * ((1 - gamma) * a_ + gamma * next);
+    a_ = next;
+    kept = alpha_.alternates() ? (v - start_v) / dt : next;
+  }
+  /// Of the last step.
+  double true_error() const { return std::abs(x - start_x * std::cos(alpha_.dt) - start_v * std::sin(alpha_.dt)); }
+  const solve::AlphaStep& alpha() const { return alpha_; }
+
+  double x = 0.6, v = 0.8, kept = -0.6;
+  double start_x = 0, start_v = 0, start_kept = 0;
+
+private:
+  solve::AlphaStep alpha_;
+  double a_ = -0.6;
+};
+
+/// In the first component.
+system::Vector vector_of(double value) {
+  system::Vector vector;
+  petsc::check(VecCreateSeq(PETSC_COMM_SELF, 3, vector.out()));
+  petsc::check(VecSetValue(vector, 0, value, INSERT_VALUES));
+  petsc::check(VecAssemblyBegin(vector));
+  petsc::check(VecAssemblyEnd(vector));
+  return vector;
+}
+
+}   // namespace
+
+TEST(StepControl, TheEstimateIsTheLocalError) {
+  solve::TimeStepper stepper;
+  petsc::check(TSCreate(PETSC_COMM_SELF, stepper.out()));
+  TSAdapt adapt = nullptr;
+  petsc::check(TSGetAdapt(stepper, &adapt));
+  partition::LocalNetwork one_node;
+  one_node.owned = 1;
+  one_node.begin = {0, 3};
+  for (const double radius : {1.0, 0.8, 0.3, 0.0}) {
+    Oscillator oscillator(radius);
+    solve::StepControl control(adapt, 1, 1, 1, 0);
+    int count = 0;
+    for (const double dt : {8, 8, 8, 8, 8, 4, 4, 4, 2, 1, 1, 1, 2, 4, 4, 4, 8, 8, 8, 7, 7, 7, 8, 8}) {
+      oscillator.step(1e-3 * dt);
+      const system::Vector x = vector_of(oscillator.start_x), v = vector_of(oscillator.start_v),
+                           a = vector_of(oscillator.start_kept), end = vector_of(oscillator.x);
+      EXPECT_TRUE(control.accepts(oscillator.alpha(), one_node, {x, v, a}, end));
+      control.advance(false);
+      EXPECT_GT(control.error(), 0.5 * oscillator.true_error()) << "radius " << radius << ", step " << count;
+      EXPECT_LT(control.error(), 2 * oscillator.true_error()) << "radius " << radius << ", step " << count;
+      ++count;
+    }
+  }
+}
+
+namespace {
+
+/// The cable of examples/free_fall.
+network::Network whip() {
+  return network::build_network(scene::read_scene(R"(
+environment: {gravity: 9.81}
+cable_types: {steel: {area: 1.962e-5, density: 7800, youngs_modulus: 53e9}}
+points: {pin: {position: [0, 0, 0], motion: fixed}, free: {position: [1.713, 0, 0]}}
+cables: {cable: {type: steel, from: pin, to: free, length: 1.713, elements: 24}}
+time: {end: 1, step: 1.0e-3}
+)",
+                                                  "whip.yaml"));
+}
+
+struct Fall {
+  long attempts;
+  double error;   ///< of the free end after 1 s [m]
+};
+
+Fall fall(Scheme scheme, double radius, std::optional<double> tolerance) {
+  const network::Network network = whip();
+  const scene::Time time{0, 1, 1e-3, scheme, radius, 0.05, tolerance};
+  const Trajectory run(network, time, 0.1, PETSC_COMM_WORLD);
+  // examples/free_fall/reference.csv
+  const Vector3 exact(-1.56354970013115, 0, -0.616180665274549);
+  return {run.counts().steps + run.counts().rejected, (run.x[1] - exact).norm()};
+}
+
+void expect_fewer_steps(Scheme scheme, double radius, double tolerance) {
+  const Fall fixed = fall(scheme, radius, {}), adaptive = fall(scheme, radius, tolerance);
+  EXPECT_LE(adaptive.error, fixed.error);
+  EXPECT_LE(adaptive.attempts, 0.9 * static_cast<double>(fixed.attempts));
+}
+
+}   // namespace
+
+TEST(AdaptiveWhip, TakesFewerStepsThanAFixedStep) {
+  expect_fewer_steps(Scheme::energy_momentum, 1, 3.5e-6);
+  expect_fewer_steps(Scheme::generalized_alpha, 0.3, 7e-6);
+}
