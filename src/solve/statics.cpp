@@ -23,11 +23,21 @@ constexpr double wanted = 1e-12, enough = 1e-9;
 /// Of rounding's own share.
 constexpr double rounding_margin = 16;
 
-/// Of the total load: a soft rope's stiffness, the strings' tension, and a slack rope's.
-constexpr double soft_stiffness = 5, string_tension = 0.5, slack_tension = 1e-4;
+/// Of the total load: a soft rope's stiffness, and a slack rope's tension.
+constexpr double soft_stiffness = 5, slack_tension = 1e-4;
 
 /// Of a stage's residual over the loads before the next one.
-constexpr double passable = 1e-3;
+constexpr double rough = 0.05, passable = 1e-3;
+
+/// Strings that get less and less extensible: exponents, tensions over the total load, and iterations at most.
+struct StringStage {
+  double exponent, tension;
+  int most;
+};
+constexpr StringStage string_stages[] = {{1, 0.5, 4}, {3, 0.25, 20}, {9, 0.1, 20}};
+
+/// Share of a step below which the next is to be made in a shorter pseudo-time.
+constexpr double short_step = 0.15;
 
 constexpr double first_shift = 0.01, largest_shift = 1e6, shift_growth = 10;   // [1/s], [1/s], 1
 
@@ -59,12 +69,16 @@ Statics::Statics(system::Assembler& assembler, double t, const Vector3& velocity
   check(KSPSetOperators(ksp_, tangent_.matrix(), tangent_.matrix()));
 }
 
-bool Statics::solve() {
+void Statics::measure_loads() {
   PetscReal sum = 0;
   forces_.loads(x_, r_);
   check(VecNorm(r_, NORM_1, &sum));
   load_ = norm(r_);
   total_load_ = std::max<double>(sum, std::numeric_limits<double>::min());
+}
+
+bool Statics::solve() {
+  measure_loads();
   bool found = go_directly();
   if (found && forces_.tensions(x_).least >= -enough * forces_.tensions(x_).largest) {
     conclude(true);
@@ -93,14 +107,21 @@ bool Statics::go_directly() {
 }
 
 bool Statics::go_by_ropes() {
-  const double stiffness = soft_stiffness * total_load_, tension = string_tension * total_load_;
-  const StaticRule strings{StaticRule::Kind::strings, tension, 0};
   check(VecCopy(drawn_, x_));
   shift_ = 0;
-  settle(strings, {passable * reference(), 4, true});
-  StaticRule ropes{StaticRule::Kind::ropes, slack_tension * total_load_, stiffness};
-  if (!settle(ropes, {passable * reference(), 80, true})) return false;
+  for (const auto& [exponent, tension, most] : string_stages) {
+    measure_loads();
+    const StaticRule strings{StaticRule::Kind::strings, tension * total_load_, 0, exponent};
+    settle(strings, {rough * reference(), most, true});
+  }
+  measure_loads();
+  const double stiffness = soft_stiffness * total_load_;
+  if (!settle(ropes(stiffness), {passable * reference(), 80, true})) return false;
   return stiffen(stiffness, scales_.stiffest) && settle({StaticRule::Kind::exact}, {0, 200, true});
+}
+
+StaticRule Statics::ropes(double stiffness) const {
+  return {StaticRule::Kind::ropes, slack_tension * total_load_, stiffness};
 }
 
 /// In leaps that grow as the shape changes less.
@@ -110,8 +131,7 @@ bool Statics::stiffen(double from, double to) {
   check(VecCopy(x_, good));
   while (from < to) {
     const double next = std::min(from * leap, to);
-    const StaticRule ropes{StaticRule::Kind::ropes, slack_tension * total_load_, next};
-    if (settle(ropes, {next == to ? 0 : passable * reference(), 12, false})) {
+    if (settle(ropes(next), {next == to ? 0 : passable * reference(), 12, false})) {
       check(VecCopy(x_, good));
       from = next;
       leap *= leap;
@@ -150,8 +170,8 @@ bool Statics::settle(const StaticRule& rule, const Goal& goal) {
     previous = now;
     ++iterations_;
     if (!correct(rule, goal.may_shift)) return false;
-    const double share = search(rule, goal.searches);
-    if (share == 0) return false;
+    const double share = search(rule, now, goal.searches);
+    if (share < short_step) shift_ = std::max(first_shift, shift_growth * shift_growth * shift_);
     check(VecAXPY(x_, share, step_));
   }
 }
@@ -182,17 +202,18 @@ bool Statics::factor_and_solve() {
   return reason >= 0 && negative_pivots_ == 0 && std::isfinite(norm(step_));
 }
 
-/// How much of the step to take: all, or less where forces along it would have turned round by more than they were.
-double Statics::search(const StaticRule& rule, bool searches) {
+/// How much of the step to take: all, or less where forces along it would have turned round by more than they were, as
+/// they do beyond a minimum of energy, and did not fall either, as with drag they may.
+double Statics::search(const StaticRule& rule, double now, bool searches) {
   const double before = -dot(step_, r_);
   double share = 1;
   for (int i = 0; i < 8; ++i) {
     check(VecWAXPY(trial_, share, step_, x_));
-    const double residual = evaluate(rule, trial_, false);
-    const double after = std::isfinite(residual) ? -dot(step_, r_) : -infinite;
-    if (std::isfinite(residual) && (!searches || before <= 0 || std::abs(after) <= 0.8 * before || after > 0))
-      return share;
-    const double shorter = std::isfinite(after) ? before / (before - after) : 0.1;
+    const double then = evaluate(rule, trial_, false);
+    const double after = std::isfinite(then) ? -dot(step_, r_) : -infinite;
+    const bool descends = before > 0 && after >= -0.8 * before;
+    if (std::isfinite(then) && (!searches || descends || then < now)) return share;
+    const double shorter = std::isfinite(after) && before > 0 ? before / (before - after) : 0.3;
     share *= std::clamp(shorter, 0.1, 0.7);
   }
   return share;

@@ -88,7 +88,10 @@ bool StaticForces::residual(const StaticRule& rule, Vec x, Vec r, TangentMatrix*
   place_prescribed();
   assembler_.coincident_ = -1;
   std::optional<TangentRequest> request;
-  if (tangent != nullptr) request.emplace(TangentRequest{*tangent, shift, shift * shift});
+  if (tangent != nullptr) {
+    const bool linear = rule.kind == StaticRule::Kind::strings && rule.exponent == 1;
+    request.emplace(TangentRequest{*tangent, shift, shift * shift, 1, linear});
+  }
   const TangentRequest* const wanted = request ? &*request : nullptr;
   const bool in_domain = rule.kind == StaticRule::Kind::exact
                              ? assembler_.run(StageLaw<true>{assembler_.rule_.tangent}, instant, access, wanted)

@@ -27,7 +27,7 @@ struct Assembler::SurroundingsSweep {
   const Assembler& assembler;
   Access& access;
   double t;
-  SurroundingsTarget target;
+  SurroundingsTarget target, in_water;
   AttachedBlocks blocks;
   const partition::LocalNetwork& network = assembler.network_;
   AnyNodes nodes{access.data};
@@ -44,10 +44,10 @@ struct Assembler::SurroundingsSweep {
   void add_water() const {
     visit_water(assembler.water(), t, network.gravity, [&]<class Water>(const Water& water) {
       visit_ranges([&]<class Nodes>(Range range, const Nodes& ends) {
-        for_each_element(network, range, WaterWork<Water, Nodes, with_tangent>{network, water, ends, target});
+        for_each_element(network, range, WaterWork<Water, Nodes, with_tangent>{network, water, ends, in_water});
       });
       for_each_element(network, network.attached,
-                       AttachedWaterWork<Water, with_tangent>{network, water, nodes, target, blocks});
+                       AttachedWaterWork<Water, with_tangent>{network, water, nodes, in_water, blocks});
     });
   }
 
@@ -92,8 +92,8 @@ Vector3 Assembler::surroundings_force(const partition::LocalElement& e, std::siz
   const auto material = static_cast<std::size_t>(e.material);
   if (network_.surroundings.fluid)
     visit_water(water(), state_.t, network_.gravity, [&](const auto& water) {
-      force += elements::water_loads<false>(network_.surroundings.in_water[material], e.length, motion, water, {})
-                   .on[end];
+      force +=
+          elements::water_loads<false>(network_.surroundings.in_water[material], e.length, motion, water, {}).on[end];
     });
   if (network_.surroundings.bed) {
     const auto& [diameter, smoothing] = network_.surroundings.on_bed[material];
@@ -113,7 +113,9 @@ void Assembler::add_surroundings(const Stage& stage, Access& access, const Tange
     target.follow = {request->shift_x, request->shift_v, request->shift_a};
   }
   const AttachedBlocks blocks(network_, *bodies_, target.tangent);
-  const SurroundingsSweep sweep{*this, access, stage.t + stage.alpha_f * stage.dt, target, blocks};
+  SurroundingsTarget in_water = target;
+  if (request != nullptr && request->holds_water) in_water.follow.x = 0;
+  const SurroundingsSweep sweep{*this, access, stage.t + stage.alpha_f * stage.dt, target, in_water, blocks};
   request != nullptr ? sweep.run<true>() : sweep.run<false>();
 }
 

@@ -53,7 +53,9 @@ private:
   bool stiffen(double from, double to);
   bool settle(const system::StaticRule& rule, const Goal& goal);
   bool correct(const system::StaticRule& rule, bool may_shift);
-  double search(const system::StaticRule& rule, bool searches);
+  double search(const system::StaticRule& rule, double now, bool searches);
+  system::StaticRule ropes(double stiffness) const;
+  void measure_loads();
   double evaluate(const system::StaticRule& rule, Vec x, bool with_tangent);
   bool factor_and_solve();
   bool is_final(double norm, double previous) const;

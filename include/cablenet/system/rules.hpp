@@ -14,13 +14,15 @@ struct ForceRule {
 /// What stands in for the internal force on the way to equilibrium.
 struct StaticRule {
   enum class Kind {
-    strings,   ///< f = tension/L d: linear, so that the drawn shape does not matter
+    strings,   ///< tension (l/L)^exponent: convex; linear at exponent 1, so that the drawn shape does not matter, and
+               ///< nearly inextensible at large ones.  Water's loads are held in the tangent at exponent 1
     ropes,     ///< EA, at most `stiffness`, where taut and nothing where slack: strain energy is convex. The tangent
                ///< turns by the tension that the last correction was to bring about, at least `tension`
     exact
   } kind;
   double tension = 0;     ///< [N]
   double stiffness = 0;   ///< [N]
+  double exponent = 1;
 };
 
 /// Root-sum-squares over all elements and loads: what Newton's tolerances are scaled by.
@@ -50,6 +52,7 @@ struct TangentRequest {
   double shift_v;
   double shift_a;
   double shift_x = 1;   ///< 0: of the accelerations alone
+  bool holds_water = false;   ///< its loads do not follow positions
 };
 
 }   // namespace cablenet::system
