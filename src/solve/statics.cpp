@@ -29,6 +29,9 @@ constexpr double soft_stiffness = 5, slack_tension = 1e-4;
 /// Of a stage's residual over the loads before the next one.
 constexpr double rough = 0.05, passable = 1e-3;
 
+/// How many times stiffer ropes may become at once.
+constexpr double largest_leap = 1e12, least_leap = 1.2;
+
 /// Strings that get less and less extensible: exponents, tensions over the total load, and iterations at most.
 struct StringStage {
   double exponent, tension;
@@ -124,21 +127,19 @@ StaticRule Statics::ropes(double stiffness) const {
   return {StaticRule::Kind::ropes, slack_tension * total_load_, stiffness};
 }
 
-/// In leaps that grow as the shape changes less.
 bool Statics::stiffen(double from, double to) {
-  double leap = 10;
+  double leap = largest_leap;
   system::Vector good = assembler_.make_vector();
   check(VecCopy(x_, good));
   while (from < to) {
     const double next = std::min(from * leap, to);
-    if (settle(ropes(next), {next == to ? 0 : passable * reference(), 12, false})) {
+    if (settle(ropes(next), {passable * reference(), 20, false})) {
       check(VecCopy(x_, good));
       from = next;
-      leap *= leap;
     } else {
       check(VecCopy(good, x_));
-      leap = std::sqrt(leap);
-      if (leap < 1.2) return false;
+      leap = std::sqrt(std::min(leap, to / from));
+      if (leap < least_leap) return false;
     }
   }
   return true;
@@ -159,6 +160,7 @@ bool Statics::settle(const StaticRule& rule, const Goal& goal) {
   for (int i = 0;; ++i) {
     forces_.keep(x_);
     check(VecNorm(x_, NORM_INFINITY, &furthest_));
+    steadiness_ = std::min(1.0, previous / (rough * reference()));
     const double now = evaluate(rule, x_, true);
     if (monitors_)
       check(PetscPrintf(assembler_.communicator(),
@@ -180,7 +182,10 @@ bool Statics::settle(const StaticRule& rule, const Goal& goal) {
 bool Statics::correct(const StaticRule& rule, bool may_shift) {
   while (!factor_and_solve()) {
     if (!may_shift) return false;
-    shift_ = std::max(first_shift, shift_growth * shift_);
+    if (steadiness_ < 1)
+      steadiness_ = 1;
+    else
+      shift_ = std::max(first_shift, shift_growth * shift_);
     if (shift_ > largest_shift) {
       failure_ = "the tangent is singular";
       return false;
@@ -220,7 +225,7 @@ double Statics::search(const StaticRule& rule, double now, bool searches) {
 }
 
 double Statics::evaluate(const StaticRule& rule, Vec x, bool with_tangent) {
-  int in_domain = forces_.residual(rule, x, r_, with_tangent ? &tangent_ : nullptr, shift_) ? 1 : 0;
+  int in_domain = forces_.residual(rule, x, r_, with_tangent ? &tangent_ : nullptr, {shift_, steadiness_}) ? 1 : 0;
   MPI_Allreduce(MPI_IN_PLACE, &in_domain, 1, MPI_INT, MPI_LAND, assembler_.communicator());
   return in_domain != 0 ? norm(r_) : infinite;
 }

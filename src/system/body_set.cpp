@@ -130,8 +130,8 @@ BodySet::Sums BodySet::sums(std::size_t b, const NodeData& data) const {
   return sums;
 }
 
-void BodySet::add_water(const environment::Fluid& fluid, double t, const NodeData& data,
-                        const elements::Follow* follow) {
+void BodySet::add_water(const environment::Fluid& fluid, double t, const NodeData& data, const elements::Follow* follow,
+                        bool follows_turning) {
   const AnyNodes nodes{data};
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const partition::LocalBody& body = network_.bodies[b];
@@ -143,20 +143,41 @@ void BodySet::add_water(const environment::Fluid& fluid, double t, const NodeDat
     if (data.r != nullptr) Map3(data.r + data.begin[body.node]) -= load.force;
     if (follow == nullptr) continue;
     blocks_[b].topLeftCorner<3, 3>() -= follow->x * load.by_x + follow->v * load.by_v + follow->a * load.by_a;
-    for (int k = 0; k < unknowns(b); ++k)
+    for (int k = 0; follows_turning && k < unknowns(b); ++k)
       blocks_[b].block<3, 1>(0, 3 + k) -= load.by_rotation(R, forces_[b].by_lever.middleRows<3>(3 * k));
   }
 }
 
-void BodySet::collect(const NodeData& data, TangentMatrix* tangent) {
+void BodySet::collect(const NodeData& data, TangentMatrix* tangent, double steadiness) {
   const std::array<double*, 2> values = tangent != nullptr ? tangent->open() : std::array<double*, 2>{};
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const Sums sum = sums(b, data);
     const Vector3 torque = bodies::torque_of(forces_[b].lever, sum.moments);
     if (data.r != nullptr) add_forces(b, sum, torque, data);
+    if (steadiness > 0) add_steadiness(b, steadiness * largest_torque(b, data));
     if (tangent != nullptr) write_block(b, sum, torque, values[0], tangent->body_slots()[b]);
   }
   if (tangent != nullptr) tangent->close();
+}
+
+/// A torque's derivative by a quaternion couples turning with the quaternion's length, which therefore needs as much.
+void BodySet::add_steadiness(std::size_t b, double stiffness) {
+  const bodies::StageForces& forces = forces_[b];
+  bodies::Matrix4 held = forces.turn.transpose() * forces.turn;
+  if (network_.bodies[b].properties.rotation == bodies::Rotation::quaternion)
+    held = 4 / forces.y.squaredNorm() * bodies::Matrix4::Identity();
+  blocks_[b].block<4, 4>(3, 3) += stiffness * held;
+}
+
+/// That the forces on the carried nodes and the constant one can have.
+double BodySet::largest_torque(std::size_t b, const NodeData& data) const {
+  const partition::LocalBody& body = network_.bodies[b];
+  double torque = body.properties.torque.norm();
+  for (int k = body.first_carried; k < body.first_carried + body.carried; ++k) {
+    const auto& [node, index, r] = network_.carried[at(k)];
+    torque += Const3(data.outside_r + 3 * std::ptrdiff_t{node - data.owned}).norm() * r.norm();
+  }
+  return torque;
 }
 
 void BodySet::add_forces(std::size_t b, const Sums& sum, const Vector3& torque, const NodeData& data) const {

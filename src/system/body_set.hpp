@@ -54,11 +54,13 @@ public:
 
   /// Adds what water does at the bodies' centres of gravity.
   /// @param follow  with it, the derivatives go to the bodies' own blocks
-  void add_water(const environment::Fluid& fluid, double t, const NodeData& data, const elements::Follow* follow);
+  void add_water(const environment::Fluid& fluid, double t, const NodeData& data, const elements::Follow* follow,
+                 bool follows_turning);
 
   /// Adds what the bodies' own inertia and the forces on carried nodes come to, where data has a residual, and writes
   /// the bodies' own blocks of the tangent, where there is one.
-  void collect(const NodeData& data, TangentMatrix* tangent);
+  /// @param steadiness  as in TangentRequest
+  void collect(const NodeData& data, TangentMatrix* tangent, double steadiness);
 
   /// Ends an accepted step: conserving ones set their own end velocities.
   /// @returns the work of the constant torques [J]
@@ -73,6 +75,8 @@ private:
   };
   Sums sums(std::size_t body, const NodeData& data) const;
   void add_forces(std::size_t body, const Sums& sum, const Vector3& torque, const NodeData& data) const;
+  void add_steadiness(std::size_t body, double stiffness);
+  double largest_torque(std::size_t body, const NodeData& data) const;
   void write_block(std::size_t body, const Sums& sum, const Vector3& torque, double* values,
                    const TangentMatrix::Slot& slot);
   int unknowns(std::size_t body) const { return bodies::rotation_unknowns(network_.bodies[body].properties.rotation); }

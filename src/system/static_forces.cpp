@@ -13,6 +13,8 @@ using petsc::check;
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
+double square(double value) { return value * value; }
+
 Eigen::Map<Vector3> as_vector(double* values) { return Eigen::Map<Vector3>(values); }
 
 /// Of the velocity: a frame that changes less is taken as steady.
@@ -81,7 +83,7 @@ void StaticForces::keep(Vec x) {
   assembler_.record_starts(StaticLaw{}, access);
 }
 
-bool StaticForces::residual(const StaticRule& rule, Vec x, Vec r, TangentMatrix* tangent, double shift) {
+bool StaticForces::residual(const StaticRule& rule, Vec x, Vec r, TangentMatrix* tangent, const Steadying& steadying) {
   const Stage instant{t_, 0, 0};
   Assembler::Access access(assembler_, x, v_, resting_, r);
   access.begin_exchange();
@@ -89,8 +91,10 @@ bool StaticForces::residual(const StaticRule& rule, Vec x, Vec r, TangentMatrix*
   assembler_.coincident_ = -1;
   std::optional<TangentRequest> request;
   if (tangent != nullptr) {
+    const bool exact = rule.kind == StaticRule::Kind::exact;
     const bool linear = rule.kind == StaticRule::Kind::strings && rule.exponent == 1;
-    request.emplace(TangentRequest{*tangent, shift, shift * shift, 1, linear});
+    request.emplace(TangentRequest{*tangent, steadying.pseudo_rate, square(steadying.pseudo_rate), 1, linear,
+                                   exact ? 0 : steadying.steadiness});
   }
   const TangentRequest* const wanted = request ? &*request : nullptr;
   const bool in_domain = rule.kind == StaticRule::Kind::exact

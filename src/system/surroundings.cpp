@@ -28,6 +28,7 @@ struct Assembler::SurroundingsSweep {
   Access& access;
   double t;
   SurroundingsTarget target, in_water;
+  bool holds_turning;
   AttachedBlocks blocks;
   const partition::LocalNetwork& network = assembler.network_;
   AnyNodes nodes{access.data};
@@ -77,7 +78,8 @@ struct Assembler::SurroundingsSweep {
     if (network.surroundings.bed) add_bed<with_tangent>();
     if (!network.surroundings.fluid || network.bodies.empty()) return;
     add_carried_points<with_tangent>();
-    assembler.bodies_->add_water(assembler.water(), t, access.data, with_tangent ? &target.follow : nullptr);
+    assembler.bodies_->add_water(assembler.water(), t, access.data, with_tangent ? &target.follow : nullptr,
+                                 !holds_turning);
   }
 };
 
@@ -115,7 +117,9 @@ void Assembler::add_surroundings(const Stage& stage, Access& access, const Tange
   const AttachedBlocks blocks(network_, *bodies_, target.tangent);
   SurroundingsTarget in_water = target;
   if (request != nullptr && request->holds_water) in_water.follow.x = 0;
-  const SurroundingsSweep sweep{*this, access, stage.t + stage.alpha_f * stage.dt, target, in_water, blocks};
+  const SurroundingsSweep sweep{*this,  access,   stage.t + stage.alpha_f * stage.dt,
+                                target, in_water, request != nullptr && request->steadiness > 0,
+                                blocks};
   request != nullptr ? sweep.run<true>() : sweep.run<false>();
 }
 

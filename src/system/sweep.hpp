@@ -96,7 +96,9 @@ bool Assembler::run(const Law& law, const Stage& stage, Access& access, const Ta
                               : sweep<Law, true, true>(law, stage, access, request);
   };
   const bool in_domain = sweep_all();
-  if (!bodies_->empty()) bodies_->collect(access.data, request != nullptr ? &request->matrix : nullptr);
+  if (!bodies_->empty())
+    bodies_->collect(access.data, request != nullptr ? &request->matrix : nullptr,
+                     request != nullptr ? request->steadiness : 0);
   return in_domain;
 }
 

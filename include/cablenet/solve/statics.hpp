@@ -69,6 +69,7 @@ private:
   KrylovSolver ksp_;
   LinearSolver linear_;
   system::Vector x_, drawn_, r_, step_, trial_;
+  double steadiness_ = 1;
   double shift_ = 0;        ///< [1/s]
   double load_ = 0;         ///< 2-norm of the loads on nodes [N]
   double total_load_ = 0;   ///< sum of their components' absolute values [N]

@@ -51,8 +51,10 @@ struct TangentRequest {
   TangentMatrix& matrix;
   double shift_v;
   double shift_a;
-  double shift_x = 1;   ///< 0: of the accelerations alone
+  double shift_x = 1;         ///< 0: of the accelerations alone
   bool holds_water = false;   ///< its loads do not follow positions
+  double steadiness = 0;      ///< stiffness of bodies against turning over what their forces can turn with; with it,
+                              ///< water's loads on them do not follow attitudes
 };
 
 }   // namespace cablenet::system

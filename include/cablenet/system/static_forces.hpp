@@ -11,6 +11,12 @@ struct TensionRange {
   double largest;   ///< absolute
 };
 
+/// What keeps a tangent definite away from equilibrium.
+struct Steadying {
+  double pseudo_rate = 0;   ///< [1/s]
+  double steadiness = 0;    ///< as in TangentRequest; none in StaticRule::exact
+};
+
 /// All member functions are collective.
 class StaticForces {
 public:
@@ -26,10 +32,9 @@ public:
 
   /// Keeps an iterate's directions, which StaticRule::ropes needs of the last one.
   void keep(Vec x);
-  /// r = internal forces - loads; with a matrix, also dr/dx + shift^2 M + shift dr/dv, published.  [N]
-  /// @param shift [1/s]
+  /// r = internal forces - loads; with a matrix, also dr/dx + s^2 M + s dr/dv, s the pseudo-rate, published.  [N]
   /// @returns false on a rank where it is not defined
-  bool residual(const StaticRule& rule, Vec x, Vec r, TangentMatrix* tangent, double shift);
+  bool residual(const StaticRule& rule, Vec x, Vec r, TangentMatrix* tangent, const Steadying& steadying);
   /// What the loads alone leave: r without internal forces.
   void loads(Vec x, Vec r);
   TensionRange tensions(Vec x);
