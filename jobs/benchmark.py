@@ -10,7 +10,7 @@ import tempfile
 import time
 from functools import partial
 
-from benchmarks import bodies, chains, instructions, networks, scaling
+from benchmarks import bodies, chains, instructions, networks, scaling, tows
 from benchmarks.page import Page
 from benchmarks.runs import Laboratory, RunFailed
 
@@ -28,6 +28,7 @@ FULL = {
     8: partial(scaling.model, counts={10**3: 200, 10**4: 40, 10**5: 10}, sizes=((10**5, 0), (10**5, 100), (10**6, 1000)),
                large=(10**7, 10**4, (64, 1024, 16384)), elements=10**8),
     9: partial(bodies.bodies, masses=1000, elements=10, steps=200, cables=(50, 100, 200, 400), per_cable=50),
+    10: partial(tows.tows, targets={100: 0.002, 500: 0.008, 1000: 0.016}, finest=(1000, 0.05), step=1, interval=2),
 }
 QUICK = {
     1: chains.free_fall,
@@ -40,6 +41,7 @@ QUICK = {
     8: partial(scaling.model, counts={10**3: 50, 10**4: 10}, sizes=((10**4, 0), (10**4, 10)),
                large=(10**5, 100, (16, 64)), elements=10**8),
     9: partial(bodies.bodies, masses=100, elements=10, steps=200, cables=(50, 100), per_cable=50),
+    10: partial(tows.tows, targets={100: 0.002}, finest=(200, 0.2), step=1, interval=2),
 }
 
 
@@ -54,8 +56,8 @@ def parse():
     parser.add_argument("--limit", type=float, default=600, help="seconds that one run may take; 600")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build", help="where the programs are")
     options = parser.parse_args()
-    if options.sections and not re.fullmatch(r"[1-9](,[1-9])*", options.sections):
-        parser.error("--sections: expected numbers from 1 to 9, such as 1,2")
+    if options.sections and not re.fullmatch(r"([1-9]|10)(,([1-9]|10))*", options.sections):
+        parser.error("--sections: expected numbers from 1 to 10, such as 1,2")
     if options.repetitions is not None and options.repetitions < 1:
         parser.error("--repetitions: expected at least 1")
     options.build = options.build.resolve()
@@ -65,7 +67,7 @@ def parse():
 def chosen(options):
     if options.sections:
         return sorted({int(word) for word in options.sections.split(",")})
-    return [1, 2, 3, 4, 5, 6] + [7] * options.instructions + [8] * options.scaling + [9]
+    return [1, 2, 3, 4, 5, 6] + [7] * options.instructions + [8] * options.scaling + [9, 10]
 
 
 def processor():
