@@ -12,6 +12,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 REFERENCES = {"free_fall": (("free.x", "free.z"), 1.7, 3e-3), "conical_pendulum": (("mass.x", "mass.y", "mass.z"), 10, 1.3e-4),
               "hanging_chain": (("tip.x",), 10, 1.4e-6), "cable_body_pendulum": (("cube.x", "cube.z"), 10, 1.6e-6),
               "spinning_top": (("top.x", "top.y", "top.z"), 3.15, 2.4e-6)}
+STATIC = ("elastic_catenary", "low_langley")      # the first command's result is an equilibrium: one row
 LONG = {"towed_array": 20, "net": 3}      # steps that stand for the whole
 
 
@@ -45,7 +46,7 @@ def check(example, program, scratch):
         return f"exit status {done.returncode}: {done.stderr}"
     found = table(scratch / name / "history.csv")
     if name not in REFERENCES:
-        return "" if len(found) >= 2 else "no rows"
+        return "" if len(found) >= (1 if name in STATIC else 2) else "no rows"
     columns, end, limit = REFERENCES[name]
     worst = largest_difference(found, table(example / "reference.csv"), columns, end)
     print(f"{name}: {worst:.3g} from the reference until {end} s, allowed {limit}")
@@ -54,7 +55,7 @@ def check(example, program, scratch):
 
 def main():
     given = arguments(__doc__)
-    examples = sorted(path.parent for path in (ROOT / "examples").glob("*/scene.yaml"))
+    examples = sorted(path.parent for path in (ROOT / "examples").glob("*/README.md"))
     wrong = {example.name: text for example in examples if (text := check(example, given.program, given.scratch))}
     print("\n".join(f"FAIL {name}: {text}" for name, text in wrong.items()) or f"{len(examples)} examples run")
     return 1 if wrong or not examples else 0
