@@ -23,21 +23,18 @@ constexpr double wanted = 1e-12, enough = 1e-9;
 /// Of rounding's own share.
 constexpr double rounding_margin = 16;
 
-/// Of the total load: a soft rope's stiffness, and a slack rope's tension.
-constexpr double soft_stiffness = 5, slack_tension = 1e-4;
+/// Of the total load: the tension that a slack rope turns by.
+constexpr double slack_tension = 1e-4;
 
 /// Of a stage's residual over the loads before the next one.
 constexpr double rough = 0.05, passable = 1e-3;
-
-/// How many times stiffer ropes may become at once.
-constexpr double largest_leap = 1e12, least_leap = 1.2;
 
 /// Strings that get less and less extensible: exponents, tensions over the total load, and iterations at most.
 struct StringStage {
   double exponent, tension;
   int most;
 };
-constexpr StringStage string_stages[] = {{1, 0.5, 4}, {3, 0.25, 20}, {9, 0.1, 20}};
+constexpr StringStage string_stages[] = {{1, 0.5, 4}, {3, 0.25, 20}, {9, 0.1, 20}, {27, 0.1, 20}};
 
 /// Share of a step below which the next is to be made in a shorter pseudo-time.
 constexpr double short_step = 0.15;
@@ -61,11 +58,15 @@ double dot(Vec a, Vec b) {
 Statics::Statics(system::Assembler& assembler, double t, const Vector3& velocity)
     : assembler_(assembler),
       forces_(assembler, t, velocity),
+      is_in_flow_(forces_.is_in_flow()),
       scales_(assembler.force_scales()),
       tangent_(assembler.make_tangent()),
       monitors_(petsc::has_option("-cable_statics_monitor")) {
   for (auto* vector : {&x_, &drawn_, &r_, &step_, &trial_}) *vector = assembler_.make_vector();
   assembler_.fill_initial(drawn_, r_);
+  for (const Vector3& position : assembler_.network().position)
+    furthest_drawn_ = std::max(furthest_drawn_, position.lpNorm<Eigen::Infinity>());
+  MPI_Allreduce(MPI_IN_PLACE, &furthest_drawn_, 1, MPI_DOUBLE, MPI_MAX, assembler_.communicator());
   check(VecCopy(drawn_, x_));
   check(KSPCreate(assembler_.communicator(), ksp_.out()));
   linear_ = configure_linear_solver(ksp_, assembler_.network(), tangent_.matrix());
@@ -92,13 +93,13 @@ bool Statics::solve() {
     direct = assembler_.make_vector();
     check(VecCopy(x_, direct));
   }
-  const bool by_ropes = go_by_ropes();
-  if (!by_ropes && found) {
+  const bool by_strings = go_by_strings();
+  if (!by_strings && found) {
     check(VecCopy(direct, x_));
     evaluate({StaticRule::Kind::exact}, x_, true);
     factor_and_solve();
   }
-  found = found || by_ropes;
+  found = found || by_strings;
   conclude(found);
   return found;
 }
@@ -109,41 +110,25 @@ bool Statics::go_directly() {
   return settle({StaticRule::Kind::exact}, {0, 12, false, false});
 }
 
-bool Statics::go_by_ropes() {
+bool Statics::go_by_strings() {
   check(VecCopy(drawn_, x_));
   shift_ = 0;
+  StaticRule strings{StaticRule::Kind::strings};
   for (const auto& [exponent, tension, most] : string_stages) {
     measure_loads();
-    const StaticRule strings{StaticRule::Kind::strings, tension * total_load_, 0, exponent};
+    strings.exponent = exponent;
+    strings.string_tension = tension * total_load_;
     settle(strings, {rough * reference(), most, true});
   }
   measure_loads();
-  const double stiffness = soft_stiffness * total_load_;
-  if (!settle(ropes(stiffness), {passable * reference(), 80, true})) return false;
-  return stiffen(stiffness, scales_.stiffest) && settle({StaticRule::Kind::exact}, {0, 200, true});
+  const StaticRule start{StaticRule::Kind::ropes, strings.exponent, strings.string_tension, least_tension()};
+  if (!settle(start, {infinite, 1, false})) return false;
+  return settle(ropes(), {passable * reference(), 40, false}) && settle({StaticRule::Kind::exact}, {0, 200, true});
 }
 
-StaticRule Statics::ropes(double stiffness) const {
-  return {StaticRule::Kind::ropes, slack_tension * total_load_, stiffness};
-}
+double Statics::least_tension() const { return slack_tension * total_load_; }
 
-bool Statics::stiffen(double from, double to) {
-  double leap = largest_leap;
-  system::Vector good = assembler_.make_vector();
-  check(VecCopy(x_, good));
-  while (from < to) {
-    const double next = std::min(from * leap, to);
-    if (settle(ropes(next), {passable * reference(), 20, false})) {
-      check(VecCopy(x_, good));
-      from = next;
-    } else {
-      check(VecCopy(good, x_));
-      leap = std::sqrt(std::min(leap, to / from));
-      if (leap < least_leap) return false;
-    }
-  }
-  return true;
-}
+StaticRule Statics::ropes() const { return {StaticRule::Kind::ropes, 0, 0, least_tension()}; }
 
 /// Of forces on nodes: the loads, or what cables pull with where there are none.
 double Statics::reference() const { return load_ > 0 ? load_ : scales_.load; }
@@ -155,23 +140,27 @@ bool Statics::is_final(double now, double previous) const {
 }
 
 /// Iterates with a rule, to a norm or as far as rounding allows where that is 0.
-bool Statics::settle(const StaticRule& rule, const Goal& goal) {
+bool Statics::settle(StaticRule rule, const Goal& goal) {
+  const double least = rule.least_tension;
   double previous = infinite;
+  if (rule.kind != StaticRule::Kind::ropes || rule.string_tension > 0) forces_.keep(x_);
   for (int i = 0;; ++i) {
-    forces_.keep(x_);
     check(VecNorm(x_, NORM_INFINITY, &furthest_));
+    furthest_ = std::max(furthest_, furthest_drawn_);
     steadiness_ = std::min(1.0, previous / (rough * reference()));
+    rule.least_tension = steadiness_ * least;
     const double now = evaluate(rule, x_, true);
     if (monitors_)
       check(PetscPrintf(assembler_.communicator(),
-                        "  statics %d, rule %d, stiffness %.3g: residual %.6g N, shift %.3g\n", iterations_,
-                        static_cast<int>(rule.kind), rule.stiffness, now, shift_));
+                        "  statics %d, rule %d, exponent %.3g: residual %.6g N, shift %.3g\n", iterations_,
+                        static_cast<int>(rule.kind), rule.exponent, now, shift_));
     if (!std::isfinite(now)) return false;
     if (goal.norm > 0 ? now <= goal.norm : is_final(now, previous)) return true;
     if (i == goal.iterations) return false;
     previous = now;
     ++iterations_;
     if (!correct(rule, goal.may_shift)) return false;
+    forces_.keep(x_);
     const double share = search(rule, now, goal.searches);
     if (share < short_step) shift_ = std::max(first_shift, shift_growth * shift_growth * shift_);
     check(VecAXPY(x_, share, step_));
@@ -203,7 +192,13 @@ bool Statics::factor_and_solve() {
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
   check(KSPGetConvergedReason(ksp_, &reason));
   negative_pivots_ = 0;
-  if (linear_.elimination) negative_pivots_ = linear_.elimination->pivots().negative;
+  // With drag the tangent is unsymmetric, and pivots tell nothing of stability.
+  if (linear_.elimination && !is_in_flow_) negative_pivots_ = linear_.elimination->pivots().negative;
+  if (reason < 0 && !linear_.elimination) {
+    // PETSc would not try to factor another matrix after some failures.
+    check(KSPReset(ksp_));
+    check(KSPSetOperators(ksp_, tangent_.matrix(), tangent_.matrix()));
+  }
   return reason >= 0 && negative_pivots_ == 0 && std::isfinite(norm(step_));
 }
 

@@ -105,10 +105,9 @@ ForceScales Assembler::force_scales() {
     mass += square(4 * inertia.norm());
   }
   for (int i = 0; i < network_.own_links; ++i) stiffness += square(2 * network_.links[at(i)].stiffness);
-  double sums[] = {load, stiffness, mass}, stiffest = 0;
-  for (const auto& material : network_.materials) stiffest = std::max(stiffest, material.axial_stiffness);
+  double sums[] = {load, stiffness, mass};
   MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, communicator_);
-  return {std::sqrt(sums[0]), std::sqrt(sums[1]), std::sqrt(sums[2]), stiffest};
+  return {std::sqrt(sums[0]), std::sqrt(sums[1]), std::sqrt(sums[2])};
 }
 
 }   // namespace cablenet::system

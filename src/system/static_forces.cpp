@@ -64,6 +64,11 @@ Vector3 StaticForces::frame_velocity(const Assembler& assembler, double t, doubl
   return (most - least).norm() <= steadiness * mean.norm() ? mean : Vector3(0, 0, 0);
 }
 
+bool StaticForces::is_in_flow() const {
+  const auto& fluid = assembler_.network_.surroundings.fluid;
+  return fluid && (!velocity_.isZero(0) || !fluid->current.empty());
+}
+
 void StaticForces::place_prescribed() {
   assembler_.evaluated_ = {};
   for (std::size_t i = 0; i < assembler_.prescribed_.size(); ++i) {

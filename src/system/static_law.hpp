@@ -18,22 +18,23 @@ struct StaticLaw {
   template <bool with_tangent>
   bool evaluate(const Start& last, const ElementStage& e, Vector3& f, Matrix3& K) const {
     const elements::Stretch s = elements::stretch(e.d);
+    const Vector3 direction = 1 / s.l * s.d;
+    const double string = rule.string_tension * std::pow(s.l / e.L, rule.exponent);
     if (rule.kind == StaticRule::Kind::strings) {
-      const double density = rule.tension / e.L * std::pow(s.l / e.L, rule.exponent - 1);
-      f = density * s.d;
-      if constexpr (with_tangent) {
-        const Vector3 direction = 1 / s.l * s.d;
-        K = elements::axial_and_turning(rule.exponent * density, density, direction, direction);
-      }
+      f = string * direction;
+      if constexpr (with_tangent)
+        K = elements::axial_and_turning(rule.exponent * string / s.l, string / s.l, direction, direction);
       return s.l > 0;
     }
-    const double EA = std::min(e.material.axial_stiffness, rule.stiffness), strain = (s.l - e.L) / e.L;
-    f = EA * strain / s.l * s.d;
+    const double EA = e.material.axial_stiffness, strain = (s.l - e.L) / e.L;
+    const bool slack = e.material.tension_only && strain <= 0;
+    f = slack ? Vector3(0, 0, 0) : Vector3(EA * strain * direction);
     if constexpr (with_tangent) {
-      const Vector3 direction = 1 / s.l * s.d;
-      // The tension that this correction was expected to bring about, without what turning has stretched.
-      const double expected = EA * (last.d.dot(s.d) / last.l - e.L) / e.L, least = rule.tension;
-      K = elements::axial_and_turning(EA / e.L, std::max(expected, least) / s.l, direction, direction);
+      // Without what turning has stretched.
+      const double corrected = slack ? 0 : EA * (last.d.dot(s.d) / last.l - e.L) / e.L;
+      const double expected = rule.string_tension > 0 ? string : corrected;
+      K = elements::axial_and_turning((slack ? rule.least_tension : EA) / e.L,
+                                      std::max(expected, rule.least_tension) / s.l, direction, direction);
     }
     return s.l > 0;
   }

@@ -49,12 +49,12 @@ private:
   };
 
   bool go_directly();
-  bool go_by_ropes();
-  bool stiffen(double from, double to);
-  bool settle(const system::StaticRule& rule, const Goal& goal);
+  bool go_by_strings();
+  bool settle(system::StaticRule rule, const Goal& goal);
   bool correct(const system::StaticRule& rule, bool may_shift);
   double search(const system::StaticRule& rule, double now, bool searches);
-  system::StaticRule ropes(double stiffness) const;
+  system::StaticRule ropes() const;
+  double least_tension() const;
   void measure_loads();
   double evaluate(const system::StaticRule& rule, Vec x, bool with_tangent);
   bool factor_and_solve();
@@ -64,6 +64,7 @@ private:
 
   system::Assembler& assembler_;
   system::StaticForces forces_;
+  bool is_in_flow_;
   system::ForceScales scales_;
   system::TangentMatrix tangent_;
   KrylovSolver ksp_;
@@ -73,6 +74,7 @@ private:
   double shift_ = 0;        ///< [1/s]
   double load_ = 0;         ///< 2-norm of the loads on nodes [N]
   double total_load_ = 0;   ///< sum of their components' absolute values [N]
+  double furthest_drawn_ = 0;
   double furthest_ = 0;     ///< largest coordinate [m]
   double largest_load_ = 0, imbalance_ = 0;
   int iterations_ = 0;

@@ -14,15 +14,15 @@ struct ForceRule {
 /// What stands in for the internal force on the way to equilibrium.
 struct StaticRule {
   enum class Kind {
-    strings,   ///< tension (l/L)^exponent: convex; linear at exponent 1, so that the drawn shape does not matter, and
-               ///< nearly inextensible at large ones.  Water's loads are held in the tangent at exponent 1
-    ropes,     ///< EA, at most `stiffness`, where taut and nothing where slack: strain energy is convex. The tangent
-               ///< turns by the tension that the last correction was to bring about, at least `tension`
-    exact
+    strings,   ///< string_tension (l/L)^exponent: convex; linear at exponent 1, so that the drawn shape does not
+               ///< matter, and nearly inextensible at large ones.  Water's loads are held in the tangent at exponent 1
+    ropes,   ///< as they are; the tangent turns by the tension that the last correction was to bring about, or by the
+             ///< strings' where string_tension is given, and by least_tension at least
+    exact    ///< as they are, with their own tangent
   } kind;
-  double tension = 0;     ///< [N]
-  double stiffness = 0;   ///< [N]
   double exponent = 1;
+  double string_tension = 0;   ///< [N]
+  double least_tension = 0;    ///< [N]
 };
 
 /// Root-sum-squares over all elements and loads: what Newton's tolerances are scaled by.
@@ -30,7 +30,6 @@ struct ForceScales {
   double load;        ///< tension, weight, m v^2/L at the start [N]
   double stiffness;   ///< 2 EA/L [N/m]
   double mass;        ///< [kg]
-  double stiffest;    ///< largest EA [N]
   /// What rounding of positions does to the residual's 2-norm: eps |x| (stiffness + shift_a mass).  [N]
   /// @param furthest largest coordinate [m]
   double rounding(double furthest, double shift_a) const;

@@ -30,6 +30,8 @@ public:
   /// @param window  for which it has to stay the same [s]
   static Vector3 frame_velocity(const Assembler& assembler, double t, double window);
 
+  /// Water moves past the frame.  Not collective.
+  bool is_in_flow() const;
   /// Keeps an iterate's directions, which StaticRule::ropes needs of the last one.
   void keep(Vec x);
   /// r = internal forces - loads; with a matrix, also dr/dx + s^2 M + s dr/dv, s the pseudo-rate, published.  [N]
