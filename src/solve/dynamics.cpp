@@ -31,7 +31,7 @@ constexpr long steps_between_norms = 64;
 
 }   // namespace
 
-Dynamics::Dynamics(system::Assembler& assembler, const scene::Time& time, double output_interval)
+Dynamics::Dynamics(system::Assembler& assembler, const scene::Time& time, double output_interval, const char* prefix)
     : assembler_(assembler),
       time_(time),
       schedule_(time.start, time.end, time.step, output_interval),
@@ -40,13 +40,14 @@ Dynamics::Dynamics(system::Assembler& assembler, const scene::Time& time, double
       user_line_search_(has_option("-snes_linesearch_type") || has_option("-snes_type")) {
   for (auto* vector : {&x_, &v_, &a_, &x0_, &v0_, &start_acceleration_}) *vector = assembler_.make_vector();
   assembler_.fill_initial(x_, v_);
-  create_stepper();
+  create_stepper(prefix);
   configure_solvers();
   read_limits();
 }
 
-void Dynamics::create_stepper() {
+void Dynamics::create_stepper(const char* prefix) {
   check(TSCreate(assembler_.communicator(), stepper_.out()));
+  check(TSSetOptionsPrefix(stepper_, prefix));
   check(TSSetType(stepper_, TSALPHA2));
   check(TSAlpha2SetRadius(stepper_, time_.spectral_radius));
   check(TSSetApplicationContext(stepper_, this));

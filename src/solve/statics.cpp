@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "cablenet/petsc/queries.hpp"
+#include "cablenet/solve/relaxation.hpp"
 #include "failed_place.hpp"
 
 namespace cablenet::solve {
@@ -39,6 +40,13 @@ constexpr StringStage string_stages[] = {{1, 0.5, 4}, {3, 0.25, 20}, {9, 0.1, 20
 /// Share of a step below which the next is to be made in a shorter pseudo-time.
 constexpr double short_step = 0.15;
 
+/// The first time to settle, over that of a fall through the network's size; how often it is doubled.
+constexpr double settling_time = 10, standard_gravity = 9.80665;
+constexpr int longer_times = 5;
+
+/// Of the network's size.
+constexpr double near = 1e-3;
+
 constexpr double first_shift = 0.01, largest_shift = 1e6, shift_growth = 10;   // [1/s], [1/s], 1
 
 double norm(Vec v) {
@@ -57,6 +65,8 @@ double dot(Vec a, Vec b) {
 
 Statics::Statics(system::Assembler& assembler, double t, const Vector3& velocity)
     : assembler_(assembler),
+      t_(t),
+      velocity_(velocity),
       forces_(assembler, t, velocity),
       is_in_flow_(forces_.is_in_flow()),
       scales_(assembler.force_scales()),
@@ -83,25 +93,27 @@ void Statics::measure_loads() {
 
 bool Statics::solve() {
   measure_loads();
-  bool found = go_directly();
-  if (found && forces_.tensions(x_).least >= -enough * forces_.tensions(x_).largest) {
-    conclude(true);
-    return true;
-  }
-  system::Vector direct;
-  if (found) {
-    direct = assembler_.make_vector();
-    check(VecCopy(x_, direct));
-  }
-  const bool by_strings = go_by_strings();
-  if (!by_strings && found) {
-    check(VecCopy(direct, x_));
-    evaluate({StaticRule::Kind::exact}, x_, true);
-    factor_and_solve();
-  }
-  found = found || by_strings;
-  conclude(found);
-  return found;
+  const bool directly = go_directly();
+  if (directly && (is_near_drawn() || is_taut())) return conclude(true);
+  const system::Vector direct = assembler_.make_vector();
+  check(VecCopy(x_, direct));
+  if (go_by_strings() || go_in_time()) return conclude(true);
+  if (directly) check(VecCopy(direct, x_));
+  return conclude(directly);
+}
+
+/// Where compression is carried there may be more equilibria than one, and that without any is the lowest.
+bool Statics::is_taut() {
+  const system::TensionRange tensions = forces_.tensions(x_);
+  return tensions.least >= -enough * tensions.largest;
+}
+
+/// As frames of bars are, which are meant to stand as drawn.
+bool Statics::is_near_drawn() {
+  PetscReal moved = 0;
+  check(VecWAXPY(trial_, -1, drawn_, x_));
+  check(VecNorm(trial_, NORM_INFINITY, &moved));
+  return moved <= near * furthest_drawn_;
 }
 
 /// Newton's method on the cables as they are.
@@ -124,6 +136,21 @@ bool Statics::go_by_strings() {
   const StaticRule start{StaticRule::Kind::ropes, strings.exponent, strings.string_tension, least_tension()};
   if (!settle(start, {infinite, 1, false})) return false;
   return settle(ropes(), {passable * reference(), 40, false}) && settle({StaticRule::Kind::exact}, {0, 200, true});
+}
+
+/// As the last resort, lets the network settle.
+bool Statics::go_in_time() {
+  const double size = std::max(furthest_drawn_, std::numeric_limits<double>::min());
+  double duration = settling_time * std::sqrt(size / standard_gravity);
+  check(VecCopy(drawn_, x_));
+  for (int i = 0; i < longer_times; ++i, duration *= 2) {
+    if (!relax(assembler_, t_, velocity_, duration, x_)) return false;
+    check(VecCopy(x_, trial_));
+    shift_ = 0;
+    if (settle({StaticRule::Kind::exact}, {0, 20, true})) return true;
+    check(VecCopy(trial_, x_));
+  }
+  return false;
 }
 
 double Statics::least_tension() const { return slack_tension * total_load_; }
@@ -225,7 +252,7 @@ double Statics::evaluate(const StaticRule& rule, Vec x, bool with_tangent) {
   return in_domain != 0 ? norm(r_) : infinite;
 }
 
-void Statics::conclude(bool converged) {
+bool Statics::conclude(bool converged) {
   PetscReal load = 0, residual = 0;
   forces_.loads(x_, r_);
   check(VecNorm(r_, NORM_INFINITY, &load));
@@ -234,6 +261,7 @@ void Statics::conclude(bool converged) {
   largest_load_ = load;
   imbalance_ = residual / (load > 0 ? load : std::max(scales_.load, std::numeric_limits<double>::min()));
   if (!converged && failure_.empty()) failure_ = "the iteration does not settle";
+  return converged;
 }
 
 FailedPlace Statics::failed_place() {

@@ -22,8 +22,8 @@ using TimeStepper = petsc::Handle<TS, TSDestroy>;
 /// All member functions are collective.
 class Dynamics {
 public:
-  /// Reads the options database (-ts_*, -snes_*, -ksp_*, -pc_*).
-  Dynamics(system::Assembler& assembler, const scene::Time& time, double output_interval);
+  /// Reads the options database (-ts_*, -snes_*, -ksp_*, -pc_*), all of them with a prefix where one is given.
+  Dynamics(system::Assembler& assembler, const scene::Time& time, double output_interval, const char* prefix = nullptr);
 
   Verdict run(const Observers& observers);
 
@@ -35,7 +35,7 @@ public:
   FailedPlace failed_place();
 
 private:
-  void create_stepper();
+  void create_stepper(const char* prefix);
   void configure_solvers();
   void read_limits();
   bool follows_residuals_by_tangents() const;

@@ -48,8 +48,11 @@ private:
     bool may_shift = true;
   };
 
+  bool is_taut();
+  bool is_near_drawn();
   bool go_directly();
   bool go_by_strings();
+  bool go_in_time();
   bool settle(system::StaticRule rule, const Goal& goal);
   bool correct(const system::StaticRule& rule, bool may_shift);
   double search(const system::StaticRule& rule, double now, bool searches);
@@ -60,9 +63,11 @@ private:
   bool factor_and_solve();
   bool is_final(double norm, double previous) const;
   double reference() const;
-  void conclude(bool converged);
+  bool conclude(bool converged);
 
   system::Assembler& assembler_;
+  double t_;
+  Vector3 velocity_;
   system::StaticForces forces_;
   bool is_in_flow_;
   system::ForceScales scales_;
@@ -75,7 +80,7 @@ private:
   double load_ = 0;         ///< 2-norm of the loads on nodes [N]
   double total_load_ = 0;   ///< sum of their components' absolute values [N]
   double furthest_drawn_ = 0;
-  double furthest_ = 0;     ///< largest coordinate [m]
+  double furthest_ = 0;   ///< largest coordinate [m]
   double largest_load_ = 0, imbalance_ = 0;
   int iterations_ = 0;
   long negative_pivots_ = 0;
