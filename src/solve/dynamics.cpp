@@ -114,7 +114,7 @@ Instant Dynamics::instant() const { return {schedule_.time(), counts_.steps, x_,
 /// M a0 = f(t0, x0, v0).
 void Dynamics::solve_initial_acceleration() {
   assembler_.force(time_.start, x_, v_, x0_);
-  assembler_.mass_matrix(x_, v_, tangent_);
+  assembler_.mass_matrix(time_.start, x_, v_, tangent_);
   tangent_.publish();
   check(KSPSetOperators(ksp_, tangent_.matrix(), tangent_.matrix()));
   check(KSPSolve(ksp_, x0_, start_acceleration_));

@@ -143,14 +143,16 @@ void Assembler::tangent(const Stage& stage, Vec x, Vec v, Vec a, const TangentRe
   add_loads(stage.t + stage.alpha_f * stage.dt, access, &request);
 }
 
-void Assembler::mass_matrix(Vec x, Vec v, TangentMatrix& mass) {
+void Assembler::mass_matrix(double t, Vec x, Vec v, TangentMatrix& mass) {
   const Vector resting = make_vector();
   evaluated_ = {};
   Access access(*this, x, v, resting, nullptr);
   access.begin_exchange();
+  start_prescribed(t);
+  set_prescribed({t, 0, 0});
   const TangentRequest request{mass, 0, 1, 0};
-  run(NoLaw{}, {}, access, &request);
-  add_loads(0, access, &request);
+  run(NoLaw{}, {t, 0, 0}, access, &request);
+  add_loads(t, access, &request);
 }
 
 void Assembler::force(double t, Vec x, Vec v, Vec force) {

@@ -43,7 +43,7 @@ protected:
 
 TEST_F(AssemblerFalling, TheMassMatrixHoldsTheMassAndTheKineticEnergy) {
   system::TangentMatrix mass = system_.assembler.make_tangent();
-  system_.assembler.mass_matrix(system_.vector(network_.position), system_.vector(zero_), mass);
+  system_.assembler.mass_matrix(0, system_.vector(network_.position), system_.vector(zero_), mass);
   mass.publish();
   const system::Vector product = system_.assembler.make_vector();
   petsc::check(MatMult(mass.matrix(), system_.vector(Field(zero_.size(), Vector3::Ones())), product));

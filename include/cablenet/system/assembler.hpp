@@ -45,9 +45,9 @@ public:
   /// The tangent alone, unpublished; cheaper where the last residual was at this x.  @pre no two neighbours coincide
   void tangent(const Stage& stage, Vec x, Vec v, Vec a, const TangentRequest& request);
 
-  /// The mass matrix [kg], unpublished, and the force -r at (t, x, v) with no acceleration of the free nodes [N]:
+  /// The mass matrix [kg], unpublished, and the force -r with no acceleration of the free nodes [N], both at (t, x, v):
   /// M a = force.
-  void mass_matrix(Vec x, Vec v, TangentMatrix& mass);
+  void mass_matrix(double t, Vec x, Vec v, TangentMatrix& mass);
   void force(double t, Vec x, Vec v, Vec force);
 
   /// Ends the accepted step whose last residual this is: adds the work of moved points and torques over it, and sets
