@@ -10,5 +10,7 @@ cablenet_script_test(verification_body_pendulum verification/body_pendulum.py 12
 cablenet_script_test(verification_rigid_links verification/rigid_links.py 120 verification)
 cablenet_script_test(verification_hung_body verification/hung_body.py 120 verification)
 cablenet_script_test(verification_low_langley verification/low_langley.py 120 verification)
+cablenet_script_test(verification_water_bodies verification/water_bodies.py 120 verification)
+cablenet_script_test(verification_water_cables verification/water_cables.py 120 verification)
 cablenet_script_test(verification_yardstick verification/yardstick.py 60 verification
   --yardstick $<TARGET_FILE:yardstick_chain>)
