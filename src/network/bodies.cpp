@@ -59,9 +59,10 @@ Vector3 three(const std::array<double, 6>& values, std::size_t first) {
 void put_in_water(const scene::Body& from, double density, Body& body, Network& network) {
   const Vector3 linear = three(from.linear_drag, 0), quadratic = three(from.quadratic_drag, 0);
   const double radius = wetted_radius(from.volume, 2 / density * quadratic.maxCoeff());
-  body.water = {linear, quadratic, three(from.added_mass, 0), radius};
+  body.water = {linear, quadratic, three(from.added_mass, 0), radius, Vector3::Zero()};
   if (body.properties.rotation != bodies::Rotation::none) {
-    body.properties.inertia += three(from.added_mass, 3).asDiagonal();
+    body.water->added_inertia = three(from.added_mass, 3);
+    body.properties.inertia += body.water->added_inertia.asDiagonal();
     body.properties.linear_drag = three(from.linear_drag, 3);
     body.properties.quadratic_drag = three(from.quadratic_drag, 3);
   }

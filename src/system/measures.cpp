@@ -63,7 +63,10 @@ Energies Assembler::energies() const {
   sum.work = work_;
   for (int b = 0; b < network_.own_bodies; ++b) {
     const Vector3& w = state_.bodies[at(b)].w;
-    sum.kinetic += 0.5 * w.dot(network_.bodies[at(b)].properties.inertia * w);
+    const partition::LocalBody& body = network_.bodies[at(b)];
+    sum.kinetic += 0.5 * w.dot(body.properties.inertia * w);
+    // The energy of the water around things is nowhere counted.
+    if (body.water) sum.kinetic -= 0.5 * body.water->added_inertia.dot(w.cwiseAbs2());
   }
   for (int i = 0; i < network_.own_links; ++i) {
     const auto& [node, stiffness] = network_.links[at(i)];

@@ -49,9 +49,13 @@ def check_added_inertia(v):
             sums = body_scene({"top": {**top, "inertia": [0.015, 0.024, 0.035]}}, 2, step / 4, 0.1, **keys)
             parts = body_scene({"top": {**top, "inertia": [0.01, 0.02, 0.025],
                                         "added_mass": [1, 2, 3, 0.005, 0.004, 0.01]}}, 2, step, 0.1, **keys)
-            dry, inside = Turning(v.run(sums), "top"), Turning(v.run(wet(parts)), "top")
+            run = v.run(wet(parts))
+            dry, inside = Turning(v.run(sums), "top"), Turning(run, "top")
             off.append(angle_between(dry.q, inside.q).max())
         v.check(f"added inertia, {name}: attitude off the heavier top's [rad]", off[1], 1e-3)
+        falling, spinning = (run.vectors("top", "v")**2).sum(axis=1) / 2, inside.energy(np.diag([0.01, 0.02, 0.025]))
+        own = np.abs(run["energy.kinetic"] - falling - spinning)
+        v.check(f"added inertia, {name}: energy.kinetic off the top's own [J]", own.max(), 1e-12)
         v.at_least(f"added inertia, {name}: order in the time step", orders(off)[0], 1.9)
 
 
@@ -155,7 +159,7 @@ def cap_depth(part):
 
 
 def check_draft(v):
-    """Statics: a floating sphere, on a thread that hardly pulls, is wet up to the cap whose water weighs what it does."""
+    """Statics: a floating sphere on a thread that hardly pulls displaces the cap whose water weighs what it does."""
     for part in (0.2, 0.5, 0.85):
         volume = 0.1
         radius = (0.75 / np.pi * volume)**(1 / 3)

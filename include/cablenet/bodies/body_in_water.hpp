@@ -15,10 +15,11 @@
 namespace cablenet::bodies {
 
 struct BodyInWater {
-  Vector3 linear = Vector3::Zero();      ///< [N s/m]
-  Vector3 quadratic = Vector3::Zero();   ///< [N s^2/m^2]
-  Vector3 added = Vector3::Zero();       ///< [kg]
-  double radius = 0;                     ///< of the sphere that is wetted at the surface [m]
+  Vector3 linear = Vector3::Zero();          ///< [N s/m]
+  Vector3 quadratic = Vector3::Zero();       ///< [N s^2/m^2]
+  Vector3 added = Vector3::Zero();           ///< [kg]
+  double radius = 0;                         ///< of the sphere that is wetted at the surface [m]
+  Vector3 added_inertia = Vector3::Zero();   ///< what Properties::inertia has of the water [kg m^2]
 };
 
 /// A thing at a node: no axes.
