@@ -51,6 +51,7 @@ class Verification:
         self.scratch.mkdir(parents=True)
         self.checked, self.failed, self.started, self.runs = 0, [], time.monotonic(), 0
         self.rejected = 0
+        self.ranks = None   # without mpirun
 
     def run(self, scene, *options):
         """Runs a scene, a dict as the file would have it; the program must succeed."""
@@ -66,7 +67,8 @@ class Verification:
         folder = self.scratch / str(self.runs)
         path = folder.with_suffix(".yaml")
         path.write_text(json.dumps(scene))   # JSON is YAML
-        command = [self.program, "run", str(path), "-o", str(folder), *map(str, options)]
+        launcher = ["mpirun", "-n", str(self.ranks), "--oversubscribe"] if self.ranks else []
+        command = [*launcher, self.program, "run", str(path), "-o", str(folder), *map(str, options)]
         started = time.monotonic()
         done = subprocess.run(command, cwd=self.scratch, capture_output=True, text=True)
         run = Run(folder, time.monotonic() - started) if (folder / "history.csv").exists() else None
