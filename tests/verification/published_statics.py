@@ -1,4 +1,4 @@
-"""Equilibria with published numbers: a cable under a load, a heated one, moorings, small nets."""
+"""Equilibria with published numbers: a cable under a load, a heated one, a stayed frame, moorings, small nets."""
 import numpy as np
 
 from statics_support import Catenary, at_rest, fixed, report_number, still
@@ -57,6 +57,42 @@ def two_spans(v):
         v.close(f"two spans: sag at {name} [m]", -at_rest(run, name)[2], 13.9392, 2e-4 * 13.9392)
     v.close("two spans: horizontal force [N]", -at_rest(run, "o", "f")[0], 2757.11, 1e-3 * 2757.11)
     v.check("two spans: horizontal force on the inner support [N]", abs(at_rest(run, "p", "f")[0]), 1e-5)
+
+
+def stayed_frame(v):
+    """Code_Aster SSNL105: four bars around two ropes that carry no compression, 1000 N at a corner.
+
+    Corners 1 and 4 stand as there: 1 fixed, 4 free along x, held in z by a bar 20 m long.  Further bars 20 m long hold
+    the corners in their plane, where they carry nothing.  Corner 3 is drawn 1 mm off: as the frame stands there,
+    neither rope resists, and it is a mechanism.
+    """
+    stiffness, far = 2.1e8, 20
+    corner = {1: [0, 0, 0], 2: [0, 0, 1], 3: [1, 0, 1], 4: [1, 0, 0]}
+    points = {f"n{i}": {"position": place} for i, place in corner.items()}
+    points["n1"]["motion"] = "fixed"
+    points["n3"] = {"position": [1.001, 0, 1], "force": [1000, 0, 0]}
+    points["above"] = fixed(1, 0, far)
+    cables = {f"bar{i}{j}": {"type": "bar", "from": f"n{i}", "to": f"n{j}", "elements": 1, "length": 1}
+              for i, j in ((1, 2), (2, 3), (3, 4), (4, 1))}
+    for i, j in ((1, 3), (4, 2)):
+        cables[f"rope{i}{j}"] = {"type": "rope", "from": f"n{i}", "to": f"n{j}", "elements": 1,
+                                  "length": float(np.sqrt(2))}
+    cables["hold"] = {"type": "guide", "from": "above", "to": "n4", "elements": 1}
+    for i in (2, 3, 4):
+        points[f"beside{i}"] = fixed(corner[i][0], far, corner[i][2])
+        cables[f"guide{i}"] = {"type": "guide", "from": f"beside{i}", "to": f"n{i}", "elements": 1,
+                                "length": far}
+    types = {"bar": {"mass_per_length": 1, "axial_stiffness": stiffness},
+             "rope": {"mass_per_length": 1, "axial_stiffness": stiffness, "tension_only": True},
+             "guide": {"mass_per_length": 1, "axial_stiffness": far * stiffness}}
+    run = v.run(still(types, points, cables, list(cables), 0))
+    tension = {name: run[f"{name}.tension_from"][0] for name in cables}
+    v.close("stayed frame: taut diagonal [N]", tension["rope13"], 1000 * np.sqrt(2), 1e-5 * 1414)
+    v.close("stayed frame: compressed bar [N]", tension["bar34"], -1000, 1e-2)
+    v.close("stayed frame: slack diagonal [N]", tension["rope42"], 0, 0)
+    for name in ("bar12", "bar23", "bar41", "guide2", "guide3", "guide4"):
+        v.close(f"stayed frame: {name} [N]", tension[name], 0, 0.05)
+    v.close("stayed frame: what holds corner 4 [N]", tension["hold"], 1000, 1e-2)
 
 
 BED_STIFFNESS = 1e6   # Pa/m: the line sinks in by 8 mm, which counts 4e-5 of the forces
@@ -166,7 +202,7 @@ def joined_lines(v):
 
 def main():
     verification = Verification(__doc__)
-    for check in (michalos_birnstiel, heated_cable, two_spans, moorings, small_nets, joined_lines):
+    for check in (michalos_birnstiel, heated_cable, two_spans, stayed_frame, moorings, small_nets, joined_lines):
         check(verification)
     verification.finish()
 

@@ -58,13 +58,34 @@ def buoy_at_the_surface(v):
 
 
 def nets(v):
-    """A net held at its sides sags under its weight: told by its forces' balance alone, as no point lies in it."""
-    panel = {"type": "rope", "corners": [[0, 0, 0], [10, 0, 0], [10, 10, 0], [0, 10, 0]], "meshes": [12, 12],
-             "slack": 1.05, "fixed": ["top", "right", "bottom", "left"]}
-    keys = {"diameter": 0.004, "density": 1140, "axial_stiffness": 1e4, "tension_only": True}
-    run = v.run(still(keys, {}, {}, [], nets={"panel": panel}))
-    v.check("sagging net: unbalanced force over the largest load",
-            report_number(run, "statics", "largest_unbalanced_force_over_load"), 1e-9)
+    """A net held at its sides sags under its weight, and nets hang or stand in a current: told by their forces' balance
+    alone, as no point lies in them."""
+    flat = [[0, 0, 0], [10, 0, 0], [10, 10, 0], [0, 10, 0]]
+    upright = [[0, 0, 0], [10, 0, 0], [10, 0, -10], [0, 0, -10]]
+    around = ["top", "right", "bottom", "left"]
+    keys = {"diameter": 0.004, "density": 1140, "axial_stiffness": 1e4, "tension_only": True, "normal_drag": 1.2,
+            "tangential_drag": 0.01}
+    fluid = {"fluid": {**WATER, "current": {"velocity": [0, 0.5, 0]}}}
+    for name, corners, edges, environment in (("sagging", flat, around, {}),
+                                              ("hanging in a current", upright, around[:1], fluid),
+                                              ("spread against a current", upright, around, fluid)):
+        panel = {"type": "rope", "corners": corners, "meshes": [12, 12], "slack": 1.05, "fixed": edges}
+        run = v.run(still(keys, {}, {}, [], environment=environment, nets={"panel": panel}))
+        v.check(f"net, {name}: unbalanced force over the largest load",
+                report_number(run, "statics", "largest_unbalanced_force_over_load"), 1e-9)
+
+
+def strangers(v):
+    """Cables in one scene that nothing joins, from 40 to 160 elements, are each what they are alone."""
+    points, cables = {}, {}
+    for i, n in enumerate((40, 80, 160)):
+        points.update({f"a{i}": fixed(0, i, 0), f"b{i}": fixed(100, i, 0), f"m{i}": {"position": [50, i, 0]}})
+        for ends in (("a", "m"), ("m", "b")):
+            cables["".join(ends) + str(i)] = {"from": f"{ends[0]}{i}", "to": f"{ends[1]}{i}", "length": 150,
+                                              "elements": n}
+    run = v.run(still({"mass_per_length": 1, "axial_stiffness": 1e6}, points, cables, ["m0", "m1", "m2"], 10))
+    for i, sag in enumerate((133.540650690704,) * 3):
+        v.close(f"three slack cables: sag {i} [m]", -at_rest(run, f"m{i}")[2], sag, 0.1 / 4**i)
 
 
 def none(v):
@@ -77,6 +98,7 @@ def none(v):
     sinker = {"sinker": {"mass": 100, "inertia": [1, 1, 1], "position": [0, 0, -5], "volume": 0.05}}
     for name, scene, places in (
             ("a cable fixed nowhere", still(keys, ends, cable, ["a"]), ("loose",)),
+            ("it beside one that is fixed", still(keys, {**ends, **held}, {**cable, **moored}, ["a"]), ("loose",)),
             ("it in a current", still(keys, ends, cable, ["a"], environment={
                 "fluid": {**WATER, "current": {"velocity": [1, 0, 0]}}}), ("loose",)),
             ("a body that sinks", still(keys, held, moored, ["sinker"], environment={"fluid": WATER},
@@ -91,7 +113,7 @@ def none(v):
 
 def main():
     verification = Verification(__doc__)
-    for check in (slack_and_taut, buoyant_line, buoy_at_the_surface, nets, none):
+    for check in (slack_and_taut, buoyant_line, buoy_at_the_surface, nets, strangers, none):
         check(verification)
     verification.finish()
 
