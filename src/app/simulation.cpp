@@ -47,7 +47,7 @@ Report::Phase slowest(Report::Phase phase) {
   return phase;
 }
 
-/// For which the tow points' velocity has to stay the same if the static start is to move with them: of the run, or
+/// In which the tow points' velocity is looked at for the static start, which moves with them: of the run, or
 /// [s] where there is none.
 constexpr double steady_part = 0.02, steady_window = 1;
 

@@ -17,8 +17,8 @@ double square(double value) { return value * value; }
 
 Eigen::Map<Vector3> as_vector(double* values) { return Eigen::Map<Vector3>(values); }
 
-/// Of the velocity: a frame that changes less is taken as steady.
-constexpr double steadiness = 1e-3;
+/// Of a component of the velocity: within this part the tow points agree.
+constexpr double agreement = 0.25;
 
 /// At how many times within the window a motion is looked at.
 constexpr int samples = 8;
@@ -59,9 +59,12 @@ Vector3 StaticForces::frame_velocity(const Assembler& assembler, double t, doubl
     }
   MPI_Allreduce(MPI_IN_PLACE, low, 3, MPI_DOUBLE, MPI_MIN, assembler.communicator_);
   MPI_Allreduce(MPI_IN_PLACE, high, 3, MPI_DOUBLE, MPI_MAX, assembler.communicator_);
-  const Vector3 least(low[0], low[1], low[2]), most(high[0], high[1], high[2]);
-  const Vector3 mean = 0.5 * (least + most);
-  return (most - least).norm() <= steadiness * mean.norm() ? mean : Vector3(0, 0, 0);
+  Vector3 common(0, 0, 0);
+  for (int k = 0; k < 3; ++k) {
+    const double middle = 0.5 * (low[k] + high[k]);
+    if (high[k] - low[k] <= agreement * std::abs(middle)) common(k) = middle;
+  }
+  return common;
 }
 
 bool StaticForces::is_in_flow() const {

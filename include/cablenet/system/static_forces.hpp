@@ -26,8 +26,9 @@ public:
   StaticForces(const StaticForces&) = delete;
   StaticForces& operator=(const StaticForces&) = delete;
 
-  /// The common velocity of all prescribed nodes from t on, zero where they have none.  [m/s]
-  /// @param window  for which it has to stay the same [s]
+  /// The velocity of all prescribed nodes from t on; each component is the middle of what occurs, or zero where they
+  /// differ by more than a quarter of it: heave, a start from rest, a point that stays.  [m/s]
+  /// @param window  in which they are looked at [s]
   static Vector3 frame_velocity(const Assembler& assembler, double t, double window);
 
   /// Water moves past the frame.  Not collective.
