@@ -13,7 +13,7 @@ REFERENCES = {"free_fall": (("free.x", "free.z"), 1.7, 3e-3), "conical_pendulum"
               "hanging_chain": (("tip.x",), 10, 1.4e-6), "cable_body_pendulum": (("cube.x", "cube.z"), 10, 1.6e-6),
               "spinning_top": (("top.x", "top.y", "top.z"), 3.15, 2.4e-6)}
 STATIC = ("elastic_catenary", "low_langley")      # the first command's result is an equilibrium: one row
-LONG = {"towed_array": 20, "net": 3}      # steps that stand for the whole
+LONG = {"towed_array": 20, "net": 3, "seismic_array": 40}      # steps that stand for the whole
 
 
 def table(path):
