@@ -35,18 +35,20 @@ struct AttachedWaterWork {
 template <bool with_tangent>
 struct AttachedBedWork {
   const partition::LocalNetwork& network;
+  const SoftBed& soft;
   AnyNodes nodes;
   const SurroundingsTarget& target;
   AttachedBlocks blocks;
+  double dt;
 
   bool operator()(std::size_t i, const partition::LocalElement& e) const {
-    const environment::Bed& bed = *network.surroundings.bed;
-    const auto& [diameter, smoothing] = network.surroundings.on_bed[static_cast<std::size_t>(e.material)];
+    const network::CableOnBed& cable = network.surroundings.on_bed[static_cast<std::size_t>(e.material)];
+    const double smoothing = soft.softness * cable.smoothing;
     for (std::size_t k = 0; k < 2; ++k) {
       const int node = e.node[k];
-      const environment::BedForce push = environment::bed_force<with_tangent>(bed, 0.5 * diameter * e.length, smoothing,
-                                                                              Eigen::Map<const Vector3>(nodes.x(node)),
-                                                                              Eigen::Map<const Vector3>(nodes.v(node)));
+      const Eigen::Map<const Vector3> x(nodes.x(node)), v(nodes.v(node));
+      const environment::BedForce push =
+          environment::bed_force<with_tangent>(soft.bed, 0.5 * cable.diameter * e.length, smoothing, dt, x, v);
       add_attached_force(network, nodes, node, -push.force);
       if constexpr (with_tangent)
         blocks.add(node, node, target.tangent.slots[i][3 * k], {-push.by_x, -push.by_v, Matrix3::Zero()},

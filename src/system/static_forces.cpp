@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "static_law.hpp"
 #include "sweep.hpp"
@@ -20,6 +21,13 @@ Eigen::Map<Vector3> as_vector(double* values) { return Eigen::Map<Vector3>(value
 /// Of a component of the velocity: within this part the tow points agree.
 constexpr double agreement = 0.25;
 
+/// A node's contact over an element, in stiffness at most, until the cables are as they are.  Soft enough that the
+/// number of iterations does not grow with the bed's stiffness or the number of elements.
+constexpr double bed_over_cables = 1e-4;
+
+/// Where the cables carry next to nothing.
+constexpr double softest_bed = 1e12;
+
 /// At how many times within the window a motion is looked at.
 constexpr int samples = 8;
 
@@ -32,6 +40,24 @@ void fill_velocity(const partition::LocalNetwork& network, const Vector3& veloci
   check(VecRestoreArray(v, &values));
 }
 
+/// Stiffness x diameter x L^2, the largest: of contact over that of an element, times EA.  [N]
+double measure_bed(const partition::LocalNetwork& network, MPI_Comm communicator) {
+  double largest = 0;
+  if (!network.surroundings.bed) return 0;
+  for (int i = 0; i < network.own_elements; ++i) {
+    const partition::LocalElement& e = network.elements[at(i)];
+    largest = std::max(largest, network.surroundings.on_bed[at(e.material)].diameter * e.length * e.length);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, communicator);
+  return network.surroundings.bed->stiffness * largest;
+}
+
+double softest_cable(const partition::LocalNetwork& network) {
+  double least = std::numeric_limits<double>::max();
+  for (const auto& material : network.materials) least = std::min(least, material.axial_stiffness);
+  return least;
+}
+
 }   // namespace
 
 StaticForces::StaticForces(Assembler& assembler, double t, const Vector3& velocity)
@@ -42,6 +68,7 @@ StaticForces::StaticForces(Assembler& assembler, double t, const Vector3& veloci
       resting_(assembler.make_vector()) {
   fill_velocity(assembler_.network_, velocity_, v_);
   assembler_.start_prescribed(t_);
+  stiffest_bed_ = measure_bed(assembler_.network_, assembler_.communicator_);
   if (!assembler_.network_.surroundings.fluid) return;
   assembler_.calm_ = assembler_.network_.surroundings.fluid;
   assembler_.calm_->waves.clear();
@@ -91,6 +118,14 @@ void StaticForces::keep(Vec x) {
   assembler_.record_starts(StaticLaw{}, access);
 }
 
+/// Against soft cables a hard bed is a wall, before which Newton's steps shrink to nothing.
+double StaticForces::bed_softness(const StaticRule& rule) const {
+  if (rule.kind == StaticRule::Kind::exact) return 1;
+  const double cable =
+      rule.kind == StaticRule::Kind::strings ? rule.string_tension * rule.exponent : softest_cable(assembler_.network_);
+  return std::clamp(stiffest_bed_ / (bed_over_cables * cable), 1.0, softest_bed);
+}
+
 bool StaticForces::residual(const StaticRule& rule, Vec x, Vec r, TangentMatrix* tangent, const Steadying& steadying) {
   const Stage instant{t_, 0, 0};
   Assembler::Access access(assembler_, x, v_, resting_, r);
@@ -105,10 +140,12 @@ bool StaticForces::residual(const StaticRule& rule, Vec x, Vec r, TangentMatrix*
                                    exact ? 0 : steadying.steadiness});
   }
   const TangentRequest* const wanted = request ? &*request : nullptr;
+  assembler_.bed_softness_ = bed_softness(rule);
   const bool in_domain = rule.kind == StaticRule::Kind::exact
                              ? assembler_.run(StageLaw<true>{assembler_.rule_.tangent}, instant, access, wanted)
                              : assembler_.run(StaticLaw{rule}, instant, access, wanted);
   assembler_.add_loads(t_, access, wanted);
+  assembler_.bed_softness_ = 1;
   access.close();
   if (tangent != nullptr) tangent->publish();
   return in_domain;
@@ -118,8 +155,11 @@ void StaticForces::loads(Vec x, Vec r) {
   Assembler::Access access(assembler_, x, v_, resting_, r);
   access.begin_exchange();
   place_prescribed();
+  // The bed answers the others, enormously where the drawn shape lies in it.
+  assembler_.bed_softness_ = 0;
   assembler_.run(NoLaw{}, {t_, 0, 0}, access, nullptr);
   assembler_.add_loads(t_, access, nullptr);
+  assembler_.bed_softness_ = 1;
 }
 
 TensionRange StaticForces::tensions(Vec x) {

@@ -26,7 +26,7 @@ bodies::PointMotion point_motion(const AnyNodes& nodes, int node) {
 struct Assembler::SurroundingsSweep {
   const Assembler& assembler;
   Access& access;
-  double t;
+  double t, dt;
   SurroundingsTarget target, in_water;
   bool holds_turning;
   AttachedBlocks blocks;
@@ -54,10 +54,11 @@ struct Assembler::SurroundingsSweep {
 
   template <bool with_tangent>
   void add_bed() const {
+    const SoftBed bed{*network.surroundings.bed, assembler.bed_softness_};
     visit_ranges([&]<class Nodes>(Range range, const Nodes& ends) {
-      for_each_element(network, range, BedWork<Nodes, with_tangent>{network, ends, target});
+      for_each_element(network, range, BedWork<Nodes, with_tangent>{network, bed, ends, target, dt});
     });
-    for_each_element(network, network.attached, AttachedBedWork<with_tangent>{network, nodes, target, blocks});
+    for_each_element(network, network.attached, AttachedBedWork<with_tangent>{network, bed, nodes, target, blocks, dt});
   }
 
   /// Centres of buoyancy.
@@ -75,7 +76,7 @@ struct Assembler::SurroundingsSweep {
   template <bool with_tangent>
   void run() const {
     if (network.surroundings.fluid) add_water<with_tangent>();
-    if (network.surroundings.bed) add_bed<with_tangent>();
+    if (network.surroundings.bed && assembler.bed_softness_ > 0) add_bed<with_tangent>();
     if (!network.surroundings.fluid || network.bodies.empty()) return;
     add_carried_points<with_tangent>();
     assembler.bodies_->add_water(assembler.water(), t, access.data, with_tangent ? &target.follow : nullptr,
@@ -99,7 +100,7 @@ Vector3 Assembler::surroundings_force(const partition::LocalElement& e, std::siz
     });
   if (network_.surroundings.bed) {
     const auto& [diameter, smoothing] = network_.surroundings.on_bed[material];
-    force += environment::bed_force<false>(*network_.surroundings.bed, 0.5 * diameter * e.length, smoothing,
+    force += environment::bed_force<false>(*network_.surroundings.bed, 0.5 * diameter * e.length, smoothing, 0,
                                            motion.x[end], motion.v[end])
                  .force;
   }
@@ -117,8 +118,13 @@ void Assembler::add_surroundings(const Stage& stage, Access& access, const Tange
   const AttachedBlocks blocks(network_, *bodies_, target.tangent);
   SurroundingsTarget in_water = target;
   if (request != nullptr && request->holds_water) in_water.follow.x = 0;
-  const SurroundingsSweep sweep{*this,  access,   stage.t + stage.alpha_f * stage.dt,
-                                target, in_water, request != nullptr && request->steadiness > 0,
+  const SurroundingsSweep sweep{*this,
+                                access,
+                                stage.t + stage.alpha_f * stage.dt,
+                                stage.dt,
+                                target,
+                                in_water,
+                                request != nullptr && request->steadiness > 0,
                                 blocks};
   request != nullptr ? sweep.run<true>() : sweep.run<false>();
 }

@@ -53,22 +53,34 @@ struct WaterWork {
   }
 };
 
+/// A bed that gives way more easily, by as much as its smoothing is wider.
+struct SoftBed {
+  SoftBed(const environment::Bed& hard, double by) : bed(hard), softness(by) {
+    bed.stiffness /= by;
+    bed.damping /= by;
+  }
+  environment::Bed bed;
+  double softness;
+};
+
 /// The bed's forces on an element's two nodes, each standing for half its length.
 template <class Nodes, bool with_tangent>
 struct BedWork {
   const partition::LocalNetwork& network;
+  const SoftBed& soft;
   Nodes nodes;
   const SurroundingsTarget& target;
+  double dt;
 
   [[gnu::flatten]] bool operator()(std::size_t i, const partition::LocalElement& e) const {
-    const environment::Bed& bed = *network.surroundings.bed;
-    const auto& [diameter, smoothing] = network.surroundings.on_bed[static_cast<std::size_t>(e.material)];
+    const network::CableOnBed& cable = network.surroundings.on_bed[static_cast<std::size_t>(e.material)];
+    const double smoothing = soft.softness * cable.smoothing;
     for (std::size_t k = 0; k < 2; ++k) {
       const int node = Nodes::name(e, k);
-      if (nodes.x(node)[2] > bed.level + smoothing) continue;
-      const environment::BedForce push = environment::bed_force<with_tangent>(bed, 0.5 * diameter * e.length, smoothing,
-                                                                              Eigen::Map<const Vector3>(nodes.x(node)),
-                                                                              Eigen::Map<const Vector3>(nodes.v(node)));
+      const Eigen::Map<const Vector3> x(nodes.x(node)), v(nodes.v(node));
+      if (x.z() - 0.5 * dt * std::abs(v.z()) > soft.bed.level + smoothing) continue;
+      const environment::BedForce push =
+          environment::bed_force<with_tangent>(soft.bed, 0.5 * cable.diameter * e.length, smoothing, dt, x, v);
       if (target.with_residual) Eigen::Map<Vector3>(nodes.r(node)) -= push.force;
       if constexpr (with_tangent)
         subtract_block<Nodes>(target.tangent, target.tangent.slots[i][3 * k],

@@ -109,11 +109,11 @@ private:
   std::unique_ptr<BodySet> bodies_;
   std::vector<NodeStep> prescribed_;
   std::optional<environment::Fluid> calm_;   ///< without waves, while statics is at work
+  double bed_softness_ = 1;                  ///< on the way to equilibrium; 0: no bed
   petsc::VectorState evaluated_;             ///< of the x that outside_ belongs to
   Stage evaluated_stage_{};
   double prescribed_dt_ = -1;   ///< the step that prescribed_'s ends were evaluated for
-  double previous_stage_t_ = 0;
-  double work_ = 0;
+  double previous_stage_t_ = 0, work_ = 0;
   int coincident_ = -1;
 };
 

@@ -46,10 +46,12 @@ public:
 
 private:
   void place_prescribed();
+  double bed_softness(const StaticRule& rule) const;
 
   Assembler& assembler_;
   double t_;
   Vector3 velocity_;
+  double stiffest_bed_ = 0;   ///< contact over an element, in stiffness, times EA [N]
   Vector v_, resting_;
 };
 
