@@ -1,5 +1,5 @@
-"""study.py PROGRAM DIR [--elements N] [--step S]: runs the chain at all 30 radii and periods into DIR, prints how far its largest
-forces are from the measured ones, and draws DIR/study.png.  Takes some two minutes."""
+"""study.py PROGRAM DIR [--elements N] [--step S]: runs the chain at all 30 radii and periods into DIR, prints how far its
+largest forces are from the measured ones, and draws DIR/study.png.  Takes some two minutes."""
 import argparse
 import pathlib
 import resource
@@ -71,7 +71,7 @@ def report(maxima, measured):
 
 
 def aligned(cycle, record):
-    """The cycle at the record's phases, shifted to where it fits best, and the difference's RMS over the record's range."""
+    """The cycle at the record's phases, shifted to where it fits best, and the difference's RMS over its range."""
     count = len(record)
     phases = numpy.arange(count) / count * SAMPLES
     closed = numpy.append(cycle, cycle)
