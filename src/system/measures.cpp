@@ -16,7 +16,7 @@ double square(double value) { return value * value; }
 }   // namespace
 
 double ForceScales::rounding(double furthest, double shift_a) const {
-  return std::numeric_limits<double>::epsilon() * furthest * (stiffness + shift_a * mass);
+  return std::numeric_limits<double>::epsilon() * (furthest * (stiffness + shift_a * mass) + bed);
 }
 
 const LocalState& Assembler::observe(double t, Vec x, Vec v, Vec a) {
@@ -83,7 +83,7 @@ Energies Assembler::energies() const {
 }
 
 ForceScales Assembler::force_scales() {
-  double load = 0, stiffness = 0, mass = 0;
+  double load = 0, stiffness = 0, mass = 0, bed = 0;
   for_each_element(network_, {0, network_.own_elements}, [&](std::size_t, const partition::LocalElement& e) {
     const elements::CableMaterial& material = network_.materials[at(e.material)];
     const double m = material.mass_per_length * e.length;
@@ -94,6 +94,8 @@ ForceScales Assembler::force_scales() {
     load += square(tension) + square(m * network_.gravity) + square(m * speed * speed / e.length);
     stiffness += square(2 * material.axial_stiffness / e.length);
     mass += square(m);
+    if (const auto& on = network_.surroundings.bed)
+      bed += square(on->level * on->stiffness * network_.surroundings.on_bed[at(e.material)].diameter * e.length);
     return true;
   });
   for (const auto& item : network_.loads) {
@@ -108,9 +110,9 @@ ForceScales Assembler::force_scales() {
     mass += square(4 * inertia.norm());
   }
   for (int i = 0; i < network_.own_links; ++i) stiffness += square(2 * network_.links[at(i)].stiffness);
-  double sums[] = {load, stiffness, mass};
-  MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, communicator_);
-  return {std::sqrt(sums[0]), std::sqrt(sums[1]), std::sqrt(sums[2])};
+  double sums[] = {load, stiffness, mass, bed};
+  MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, communicator_);
+  return {std::sqrt(sums[0]), std::sqrt(sums[1]), std::sqrt(sums[2]), std::sqrt(sums[3])};
 }
 
 }   // namespace cablenet::system

@@ -238,7 +238,7 @@ TEST_P(Instant, TheStaticTangentIsTheForcesDerivative) {
   for (const double shift : {0.0, 7.0}) {
     s.shift_v = shift;
     s.shift_a = shift * shift;
-    EXPECT_TRUE(forces.residual({system::StaticRule::Kind::exact}, s.x, r, &tangent, shift));
+    EXPECT_TRUE(forces.residual({system::StaticRule::Kind::exact}, s.x, r, &tangent, {shift, 0}));
     EXPECT_LE(relative_difference(r, residual_at(system, s, 0)), 1e-12);
     EXPECT_LE(relative_difference(times_direction(system, s, tangent), slope(system, s, 1e-6)), 3e-8) << shift;
   }

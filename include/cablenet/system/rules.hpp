@@ -30,7 +30,8 @@ struct ForceScales {
   double load;        ///< tension, weight, m v^2/L at the start [N]
   double stiffness;   ///< 2 EA/L [N/m]
   double mass;        ///< [kg]
-  /// What rounding of positions does to the residual's 2-norm: eps |x| (stiffness + shift_a mass).  [N]
+  double bed;         ///< |level| times the stiffness of contact [N]
+  /// What rounding of positions does to the residual's 2-norm: eps (|x| (stiffness + shift_a mass) + bed).  [N]
   /// @param furthest largest coordinate [m]
   double rounding(double furthest, double shift_a) const;
 };
