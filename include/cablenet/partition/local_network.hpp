@@ -79,9 +79,9 @@ struct LocalNetwork {
   std::vector<elements::CableMaterial> materials;
   network::Surroundings surroundings;
   std::vector<network::WetPoint> wet_points;   ///< at nodes of this rank, or that its bodies carry; node is local
-  double gravity = 0;              ///< [m/s^2] along -z
-  std::vector<Vector3> position;   ///< per local node, at the start [m]
-  std::vector<Vector3> velocity;   ///< per local node, at the start [m/s]
+  double gravity = 0;                          ///< [m/s^2] along -z
+  std::vector<Vector3> position;               ///< per local node, at the start [m]
+  std::vector<Vector3> velocity;               ///< per local node, at the start [m/s]
 
   bool is_free(int local_node) const { return local_node < owned + ghosts; }
   bool is_carried(int local_node) const { return local_node >= nodes - static_cast<int>(carried.size()); }

@@ -16,9 +16,9 @@ struct StaticRule {
   enum class Kind {
     strings,   ///< string_tension (l/L)^exponent: convex; linear at exponent 1, so that the drawn shape does not
                ///< matter, and nearly inextensible at large ones.  Water's loads are held in the tangent at exponent 1
-    ropes,   ///< as they are; the tangent turns by the tension that the last correction was to bring about, or by the
-             ///< strings' where string_tension is given, and by least_tension at least
-    exact    ///< as they are, with their own tangent
+    ropes,     ///< as they are; the tangent turns by the tension that the last correction was to bring about, or by the
+               ///< strings' where string_tension is given, and by least_tension at least
+    exact      ///< as they are, with their own tangent
   } kind;
   double exponent = 1;
   double string_tension = 0;   ///< [N]
