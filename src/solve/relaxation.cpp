@@ -20,7 +20,10 @@ partition::LocalNetwork in_frame(const system::Assembler& assembler, double t, c
                                  double duration) {
   partition::LocalNetwork network = assembler.network();
   for (auto& held : network.prescribed) held.motion = scene::Motion::fixed(held.motion.at(t).x);
-  for (auto& material : network.materials) material.mass_damping += 1 / (memory * duration);
+  for (auto& material : network.materials) {
+    material.mass_damping += 1 / (memory * duration);
+    material.tension_only = true;
+  }
   std::fill(network.velocity.begin(), network.velocity.end(), Vector3::Zero());
   if (auto& fluid = network.surroundings.fluid) {
     fluid->waves.clear();

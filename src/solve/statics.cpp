@@ -134,8 +134,18 @@ bool Statics::go_by_strings() {
   }
   measure_loads();
   const StaticRule start{StaticRule::Kind::ropes, strings.exponent, strings.string_tension, least_tension()};
-  if (!settle(start, {infinite, 1, false})) return false;
-  return settle(ropes(), {passable * reference(), 40, false}) && settle({StaticRule::Kind::exact}, {0, 200, true});
+  settle(start, {std::numeric_limits<double>::min(), 1, false});
+  return settle(ropes(), {passable * reference(), 40, false}) && settle_as_they_are(200);
+}
+
+/// What pushes may stand on end, where nothing but rounding would topple it.
+bool Statics::settle_as_they_are(int iterations) {
+  const StaticRule exact{StaticRule::Kind::exact};
+  if (!settle(exact, {0, iterations, true})) return false;
+  shift_ = 0;
+  evaluate(exact, x_, true);
+  factor_and_solve();
+  return negative_pivots_ == 0;
 }
 
 /// As the last resort, lets the network settle.
@@ -147,7 +157,7 @@ bool Statics::go_in_time() {
     if (!relax(assembler_, t_, velocity_, duration, x_)) return false;
     check(VecCopy(x_, trial_));
     shift_ = 0;
-    if (settle({StaticRule::Kind::exact}, {0, 20, true})) return true;
+    if (settle_as_they_are(20)) return true;
     check(VecCopy(trial_, x_));
   }
   return false;

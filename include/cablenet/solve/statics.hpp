@@ -53,6 +53,7 @@ private:
   bool go_directly();
   bool go_by_strings();
   bool go_in_time();
+  bool settle_as_they_are(int iterations);
   bool settle(system::StaticRule rule, const Goal& goal);
   bool correct(const system::StaticRule& rule, bool may_shift);
   double search(const system::StaticRule& rule, double now, bool searches);
