@@ -68,8 +68,8 @@ public:
     MPI_Comm_rank(PETSC_COMM_WORLD, &rank_);
     MPI_Comm_size(PETSC_COMM_WORLD, &ranks_);
     assembler_.emplace(partition::make_local_network(network_, partition_, rank_), rule_, PETSC_COMM_WORLD);
-    if (rank_ == 0)
-      fmt::print("{}: {}; {} rank{}\n", scene_.file, describe(scene_, network_), ranks_, ranks_ == 1 ? "" : "s");
+    // Options that are not allowed are refused before anything is written.
+    scene_.starts_static ? set_up_statics() : set_up_dynamics();
   }
 
   int run() {
@@ -81,6 +81,26 @@ public:
   }
 
 private:
+  void introduce(const std::string& way) const {
+    if (rank_ == 0 && report_.statics)
+      fmt::print("{}\n", way);
+    else if (rank_ == 0)
+      fmt::print("{}: {}; {} rank{}, {}\n", scene_.file, describe(scene_, network_), ranks_, ranks_ == 1 ? "" : "s",
+                 way);
+  }
+
+  void set_up_statics() {
+    const double window = time_.end > time_.start ? steady_part * (time_.end - time_.start) : steady_window;
+    frame_ = system::StaticForces::frame_velocity(*assembler_, time_.start, window);
+    statics_.emplace(*assembler_, time_.start, frame_);
+    introduce(fmt::format("statics, {}", statics_->linear_solver()));
+  }
+
+  void set_up_dynamics() {
+    dynamics_.emplace(*assembler_, time_, scene_.output.interval);
+    introduce(fmt::format("{}, {}", scheme_name(time_, rule_), dynamics_->linear_solver()));
+  }
+
   void open_output() {
     frames_.emplace(network_, partition_, *assembler_);
     probes_.emplace(scene_, network_, *assembler_);
@@ -103,12 +123,9 @@ private:
 
   /// Makes it the network's start.
   bool find_equilibrium() {
-    const double window = time_.end > time_.start ? steady_part * (time_.end - time_.start) : steady_window;
-    const Vector3 frame = system::StaticForces::frame_velocity(*assembler_, time_.start, window);
-    statics_.emplace(*assembler_, time_.start, frame);
     const bool found = statics_->solve();
     watch_.lap(equilibrium_);
-    report_.statics = {frame, statics_->imbalance(), statics_->largest_load(), statics_->iterations()};
+    report_.statics = {frame_, statics_->imbalance(), statics_->largest_load(), statics_->iterations()};
     if (rank_ == 0 && found) fmt::print("{}\n", describe(*report_.statics));
     if (rank_ == 0 && found && statics_->is_unstable())
       fmt::print(stderr, "cablenet: note: the equilibrium is not stable: a disturbance would leave it\n");
@@ -133,11 +150,12 @@ private:
   }
 
   int run_dynamics() {
-    if (statics_) statics_->make_start();
-    statics_.reset();
-    dynamics_.emplace(*assembler_, time_, scene_.output.interval);
-    if (rank_ == 0) fmt::print("{}, {}\n", scheme_name(time_, rule_), dynamics_->linear_solver());
-    watch_.lap(set_up_);
+    if (statics_) {
+      statics_->make_start();
+      statics_.reset();
+      set_up_dynamics();
+      watch_.lap(set_up_);
+    }
     Progress progress(time_.start, time_.end);
     const solve::Verdict verdict = dynamics_->run({
         [&](const solve::Instant& instant) { write(instant); },
@@ -246,6 +264,7 @@ private:
   int rank_ = 0;
   int ranks_ = 1;
   std::optional<system::Assembler> assembler_;
+  Vector3 frame_ = Vector3::Zero();         ///< in which statics is at rest [m/s]
   std::optional<solve::Statics> statics_;   ///< until the run goes on from it
   std::optional<solve::Dynamics> dynamics_;
   std::optional<output::Frames> frames_;
