@@ -142,7 +142,8 @@ bool Statics::go_by_strings() {
 bool Statics::settle_as_they_are(int iterations) {
   const StaticRule exact{StaticRule::Kind::exact};
   if (!settle(exact, {0, iterations, true})) return false;
-  shift_ = 0;
+  // What drifts freely has pivots that are rounding.
+  shift_ = first_shift;
   evaluate(exact, x_, true);
   factor_and_solve();
   return negative_pivots_ == 0;
