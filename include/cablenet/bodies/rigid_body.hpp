@@ -9,8 +9,9 @@
 ///   R1 = R0 exp(dt (w0 + w1)/2),  R1 I w1 - R0 I w0 = dt torque,  |q1| = 1,
 /// levers of forces (R0 + R1) r/2 times tan(a/2)/(a/2), a the angle turned, so that the kinetic energy changes by
 /// exactly what forces at attachments and the torque do, and without them energy and angular momentum stay.
-/// Otherwise they hold at the stage, and a gauge 4 Is q (g'' + 2 s g' + s^2 g), g = (|q|^2 - 1)/2, s = 0.1/dt, which
-/// moves nothing, keeps |q| near 1.
+/// Otherwise they hold at the stage, and a gauge 4 Is q (g'' + 2 s g' + s^2 g), g = (|q|^2 - 1)/2, s = 0.1/dt or, at an
+/// instant, 1/s, which moves nothing, keeps |q| near 1.
+///
 /// Source: Tonin & Braun, CILAMCE 2020, eqs 13-18.  End to end: after Simo & Wong, IJNME 31 (1991) 19.
 /// Tests: tests/unit/rigid_body_test.cpp
 namespace cablenet::bodies {

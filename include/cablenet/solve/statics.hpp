@@ -8,12 +8,14 @@
 #include "cablenet/system/static_forces.hpp"
 
 /// Equilibrium from any drawn shape.  Newton's method goes there at once from a shape that is near.  From others the
-/// way is: cables as linear strings of one tension, which forget the drawn shape; soft ropes without compression, whose
-/// energy is convex; then stiffer and stiffer ropes, with a tangent that turns by the tension that the last correction
-/// was to bring about (so that what turning stretches does not stiffen it); then the cables as they are.  Where the
-/// tangent is singular or has negative pivots, masses and drag over a pseudo-time 1/shift join in.
-/// Source: the last correction's tension after Magisano, Leonetti & Garcea, IJNME 109 (2017) 1237 (mixed integration
-/// point).  Tests: tests/parallel/statics_test.cpp, tests/verification
+/// way is: cables as strings of one tension, linear at first so that the drawn shape is forgotten, then less and less
+/// extensible; the cables as they are, with a tangent that turns by the tension that the last correction was to bring
+/// about, so that what turning stretches does not stiffen it; then with their own tangent.  Where the tangent is
+/// singular or has negative pivots, masses and drag over a pseudo-time 1/shift join in.  As the last resort the network
+/// settles in time (relaxation.hpp).  Nothing whose tangent has negative pivots is taken, unless water flows past, with
+/// which they tell nothing. Source: strings after Schek, Comput. Methods Appl. Mech. Engng 3 (1974) 115 (force
+/// densities); the last correction's tension after Magisano, Leonetti & Garcea, IJNME 109 (2017) 1237 (mixed
+/// integration point). Tests: tests/verification/statics.py, published_statics.py, static_networks.py, steady_tow.py
 namespace cablenet::solve {
 
 using KrylovSolver = petsc::Handle<KSP, KSPDestroy>;

@@ -2,7 +2,7 @@
 #include "cablenet/system/assembler.hpp"
 
 /// The network's forces at an instant, in a frame in which nothing moves: without inertia and waves.
-/// Tests: tests/parallel/statics_test.cpp
+/// Tests: tests/parallel/surroundings_test.cpp
 namespace cablenet::system {
 
 /// The tensions at an iterate [N].
