@@ -43,6 +43,7 @@ constexpr double short_step = 0.15;
 /// The first time to settle, over that of a fall through the network's size; how often it is doubled.
 constexpr double settling_time = 10, standard_gravity = 9.80665;
 constexpr int longer_times = 5;
+constexpr int most_unknowns_of_nets = 5000;
 
 /// Of the network's size.
 constexpr double near = 1e-3;
@@ -149,8 +150,9 @@ bool Statics::settle_as_they_are(int iterations) {
   return negative_pivots_ == 0;
 }
 
-/// As the last resort, lets the network settle.
+/// As the last resort, lets the network settle; large nets would take many minutes, without a word.
 bool Statics::go_in_time() {
+  if (linear_.factors_are_dear && assembler_.network().all_unknowns() > most_unknowns_of_nets) return false;
   const double size = std::max(furthest_drawn_, std::numeric_limits<double>::min());
   double duration = settling_time * std::sqrt(size / standard_gravity);
   check(VecCopy(drawn_, x_));
