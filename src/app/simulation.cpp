@@ -49,7 +49,7 @@ Report::Phase slowest(Report::Phase phase) {
 
 /// In which the tow points' velocity is looked at for the static start, which moves with them: of the run, or
 /// [s] where there is none.
-constexpr double steady_part = 0.02, steady_window = 1;
+constexpr double steady_part = 0.1, steady_window = 1;
 
 constexpr const char* statics_advice =
     "See that every part hangs on something fixed or afloat; try shape: catenary or a drawn shape that is nearer, or "

@@ -14,7 +14,7 @@ using petsc::check;
 /// Of the duration: the first step, and the time in which damping by mass takes a speed down to 1/e.
 constexpr double first_step = 1e-4, memory = 0.05;
 
-/// A net's thousands of nodes would take an hour to settle to the end.
+/// Where it does not settle in so many, it hardly does in more.
 constexpr const char* most_steps_option = "-relax_ts_max_steps";
 constexpr const char* most_steps = "400";
 

@@ -18,8 +18,9 @@ double square(double value) { return value * value; }
 
 Eigen::Map<Vector3> as_vector(double* values) { return Eigen::Map<Vector3>(values); }
 
-/// Of a component of the velocity: within this part the tow points agree.
-constexpr double agreement = 0.25;
+/// Of a component of the velocity: within this part the tow points agree, and in a first part of the window are steady.
+/// Surge on a tow agrees; a harmonic motion by itself changes more within a tenth of a run that has more than a period.
+constexpr double agreement = 0.25, steadiness = 1e-6, first_part = 0.2;
 
 /// A node's contact over an element, in stiffness at most, until the cables are as they are.  Soft enough that the
 /// number of iterations does not grow with the bed's stiffness or the number of elements.
@@ -76,7 +77,8 @@ StaticForces::StaticForces(Assembler& assembler, double t, const Vector3& veloci
 
 StaticForces::~StaticForces() { assembler_.calm_.reset(); }
 
-Vector3 StaticForces::frame_velocity(const Assembler& assembler, double t, double window) {
+bool StaticForces::find_common_velocity(const Assembler& assembler, double t, double window, double tolerance,
+                                        Vector3& common) {
   double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300};
   for (const auto& [node, motion] : assembler.network_.prescribed)
     for (int i = 0; i <= samples; ++i) {
@@ -86,11 +88,21 @@ Vector3 StaticForces::frame_velocity(const Assembler& assembler, double t, doubl
     }
   MPI_Allreduce(MPI_IN_PLACE, low, 3, MPI_DOUBLE, MPI_MIN, assembler.communicator_);
   MPI_Allreduce(MPI_IN_PLACE, high, 3, MPI_DOUBLE, MPI_MAX, assembler.communicator_);
-  Vector3 common(0, 0, 0);
+  bool agree = true;
+  common.setZero();
   for (int k = 0; k < 3; ++k) {
     const double middle = 0.5 * (low[k] + high[k]);
-    if (high[k] - low[k] <= agreement * std::abs(middle)) common(k) = middle;
+    const bool agrees = high[k] - low[k] <= tolerance * std::abs(middle);
+    if (agrees) common(k) = middle;
+    agree = agree && agrees;
   }
+  return agree;
+}
+
+Vector3 StaticForces::frame_velocity(const Assembler& assembler, double t, double window) {
+  Vector3 common;
+  if (!find_common_velocity(assembler, t, first_part * window, steadiness, common))
+    find_common_velocity(assembler, t, window, agreement, common);
   return common;
 }
 

@@ -13,9 +13,12 @@
 /// about, so that what turning stretches does not stiffen it; then with their own tangent.  Where the tangent is
 /// singular or has negative pivots, masses and drag over a pseudo-time 1/shift join in.  As the last resort the network
 /// settles in time (relaxation.hpp).  Nothing whose tangent has negative pivots is taken, unless water flows past, with
-/// which they tell nothing. Source: strings after Schek, Comput. Methods Appl. Mech. Engng 3 (1974) 115 (force
-/// densities); the last correction's tension after Magisano, Leonetti & Garcea, IJNME 109 (2017) 1237 (mixed
-/// integration point). Tests: tests/verification/statics.py, published_statics.py, static_networks.py, steady_tow.py
+/// which they tell nothing.
+///
+/// Source: strings after Schek, Comput. Methods Appl. Mech. Engng 3 (1974) 115 (force densities); the last correction's
+/// tension after Magisano, Leonetti & Garcea, IJNME 109 (2017) 1237 (mixed integration point).
+///
+/// Tests: tests/verification/statics.py, published_statics.py, static_networks.py, steady_tow.py
 namespace cablenet::solve {
 
 using KrylovSolver = petsc::Handle<KSP, KSPDestroy>;

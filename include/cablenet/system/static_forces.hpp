@@ -26,9 +26,10 @@ public:
   StaticForces(const StaticForces&) = delete;
   StaticForces& operator=(const StaticForces&) = delete;
 
-  /// The velocity of all prescribed nodes from t on; each component is the middle of what occurs, or zero where they
-  /// differ by more than a quarter of it: heave, a start from rest, a point that stays.  [m/s]
-  /// @param window  in which they are looked at [s]
+  /// The one velocity that all prescribed nodes have in the first fifth of the window.  Otherwise each component is the
+  /// middle of what occurs in it, or zero where they differ by more than a quarter of that: heave, a start from rest, a
+  /// point that stays.  [m/s]
+  /// @param window  from t on [s]
   static Vector3 frame_velocity(const Assembler& assembler, double t, double window);
 
   /// Water moves past the frame.  Not collective.
@@ -45,6 +46,8 @@ public:
   void start_from(Vec x);
 
 private:
+  static bool find_common_velocity(const Assembler& assembler, double t, double window, double tolerance,
+                                   Vector3& common);
   void place_prescribed();
   double bed_softness(const StaticRule& rule) const;
 
