@@ -32,7 +32,7 @@ void emit_partition(YAML::Emitter& yaml, const partition::Partition& partition) 
   const std::size_t ranks = partition.first_number.size() - 1;
   std::vector<int> nodes(ranks), elements(ranks, 0);
   for (std::size_t r = 0; r < ranks; ++r) nodes[r] = partition.first_number[r + 1] - partition.first_number[r];
-  for (const int owner : partition.element_owner) ++elements[static_cast<std::size_t>(owner)];
+  for (const int owner : partition.element_owner) ++elements[at(owner)];
   yaml << YAML::Key << "partition" << YAML::Value << YAML::BeginMap;
   yaml << YAML::Key << "free_nodes" << YAML::Value << YAML::Flow << nodes;
   yaml << YAML::Key << "elements" << YAML::Value << YAML::Flow << elements << YAML::EndMap;

@@ -8,8 +8,6 @@
 namespace cablenet::elimination {
 namespace {
 
-std::size_t at(std::int64_t index) { return static_cast<std::size_t>(index); }
-
 /// Nodes of a chain: there are more streams through memory than processors foresee, so they are told.
 constexpr std::ptrdiff_t ahead = 20;
 

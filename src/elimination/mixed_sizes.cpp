@@ -9,8 +9,6 @@
 namespace cablenet::elimination {
 namespace {
 
-std::size_t at(std::int64_t index) { return static_cast<std::size_t>(index); }
-
 /// @returns the number of negative pivots, -1 if singular.
 int factor_pivot(double* pivot, int*, Size<3>) { return factor_block(pivot); }
 template <class Own>

@@ -8,8 +8,6 @@
 namespace cablenet::elimination {
 namespace {
 
-std::size_t at(std::int64_t index) { return static_cast<std::size_t>(index); }
-
 constexpr double products_in_block = 27;   // of two 3x3 blocks
 
 /// Lays the schedule down; later neighbours come from the elimination tree: a block hands its own to the first of them.

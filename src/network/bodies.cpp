@@ -2,10 +2,10 @@
 
 #include <array>
 
+#include "cablenet/base/index.hpp"
+
 namespace cablenet::network {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 std::vector<std::vector<bool>> used_attachments(const scene::Scene& scene) {
   std::vector<std::vector<bool>> used;
@@ -22,15 +22,14 @@ bodies::Rotation rotation_of(const scene::Body& body) {
   return body.rotation == scene::Rotation::euler ? bodies::Rotation::euler : bodies::Rotation::quaternion;
 }
 
-int add_node(Network& network, const Vector3& position, const Vector3& velocity) {
-  network.position.push_back(position);
+SceneNode add_node(Network& network, const Vector3& position, const Vector3& velocity) {
   network.velocity.push_back(velocity);
-  return static_cast<int>(network.position.size()) - 1;
+  return network.position.push_back(position);
 }
 
 Body make_body(const scene::Body& body, Network& network) {
   const bodies::Rotation rotation = rotation_of(body);
-  const int node = add_node(network, body.position, body.velocity);
+  const SceneNode node = add_node(network, body.position, body.velocity);
   network.loads.push_back({node, body.mass, body.force});
   const Matrix3 inertia = body.inertia.value_or(Matrix3::Zero());
   return {body.name,
@@ -42,10 +41,10 @@ Body make_body(const scene::Body& body, Network& network) {
           0};
 }
 
-int add_carried(const scene::Body& from, const Vector3& offset, Body& body, Network& network) {
+SceneNode add_carried(const scene::Body& from, const Vector3& offset, Body& body, Network& network) {
   const Vector3 position = from.position + from.attitude * offset;
   const Vector3 velocity = from.velocity + from.attitude * from.angular_velocity.cross(offset);
-  const int node = add_node(network, position, velocity);
+  const SceneNode node = add_node(network, position, velocity);
   network.carried.push_back({node, static_cast<int>(network.bodies.size()), offset});
   ++body.carried;
   return node;
@@ -68,17 +67,17 @@ void put_in_water(const scene::Body& from, double density, Body& body, Network& 
   }
   if (from.volume == 0) return;
   const bool central = from.center_of_buoyancy.isZero(0) || body.properties.rotation == bodies::Rotation::none;
-  const int node = central ? body.node : add_carried(from, from.center_of_buoyancy, body, network);
+  const SceneNode node = central ? body.node : add_carried(from, from.center_of_buoyancy, body, network);
   network.wet_points.push_back({node, {density * from.volume, 0, 0, radius}});
 }
 
 /// The node at which cables on an attachment end: the body's own, a carried one, or one that a link ties to that.
-int add_attachment(const scene::Body& from, const Vector3& offset, Body& body, Network& network) {
+SceneNode add_attachment(const scene::Body& from, const Vector3& offset, Body& body, Network& network) {
   const bool centred = offset.isZero(0);
   if (centred && body.properties.rotation == bodies::Rotation::none) return body.node;
-  const int node = add_carried(from, offset, body, network);
+  const SceneNode node = add_carried(from, offset, body, network);
   if (!from.link_stiffness || centred) return node;
-  const int end = add_node(network, network.position[at(node)], network.velocity[at(node)]);
+  const SceneNode end = add_node(network, network.position[node], network.velocity[node]);
   network.links.push_back({{end, node}, *from.link_stiffness / offset.norm()});
   return end;
 }
@@ -91,7 +90,7 @@ AttachmentNodes add_bodies(const scene::Scene& scene, Network& network) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const scene::Body& from = scene.bodies[i];
     Body body = make_body(from, network);
-    nodes.emplace_back(from.attachments.size(), -1);
+    nodes.emplace_back(from.attachments.size());
     for (std::size_t k = 0; k < from.attachments.size(); ++k)
       if (used[i][k]) nodes[i][k] = add_attachment(from, from.attachments[k].offset, body, network);
     if (scene.fluid) put_in_water(from, scene.fluid->density, body, network);

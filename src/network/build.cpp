@@ -18,8 +18,6 @@ struct Overloaded : Handlers... {
   using Handlers::operator()...;
 };
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 /// Builds piece by piece; a tapped cable is laid before the cables that hang on it.
 class Builder {
 public:
@@ -51,47 +49,48 @@ private:
   void add_net_elements(std::size_t index);
   void check() const;
 
-  int end_node(const scene::CableEnd& end);
-  int net_node(int net, int i, int j) const {
+  SceneNode end_node(const scene::CableEnd& end);
+  SceneNode net_node(int net, int i, int j) const {
     return first_net_node_[at(net)] + j * (scene_.nets[at(net)].meshes[0] + 1) + i;
   }
-  int cable_node(std::size_t index, int k);
+  SceneNode cable_node(std::size_t index, int k);
   [[noreturn]] void complain(const scene::Cable& cable, const std::string& what) const {
     throw InputError(fmt::format("{}: cables.{}: {}", cable.where, cable.name, what));
   }
 
   const scene::Scene& scene_;
   Network network_;
-  std::vector<int> first_net_node_;
-  std::vector<int> first_inner_node_;
+  std::vector<SceneNode> first_net_node_;
+  std::vector<SceneNode> first_inner_node_;
   std::vector<std::vector<double>> taps_;   ///< per cable, arc lengths
   std::vector<std::vector<double>> arcs_;   ///< per cable, of its nodes; empty until laid
-  std::vector<bool> prescribed_;
+  Table<SceneNode, bool> prescribed_;
   AttachmentNodes attachment_nodes_;
 };
 
 void Builder::number_nodes() {
-  network_.position.resize(scene_.points.size(), Vector3::Zero());
-  network_.velocity.resize(scene_.points.size(), Vector3::Zero());
+  const int points = static_cast<int>(scene_.points.size());
+  network_.position.resize(points, Vector3::Zero());
+  network_.velocity.resize(points, Vector3::Zero());
   attachment_nodes_ = add_bodies(scene_, network_);
-  std::int64_t nodes = static_cast<std::int64_t>(network_.position.size());
+  std::int64_t nodes = network_.position.size();
   std::int64_t elements = 0;
   for (const auto& net : scene_.nets) {
-    first_net_node_.push_back(static_cast<int>(nodes));
+    first_net_node_.emplace_back(static_cast<int>(nodes));
     nodes += static_cast<std::int64_t>(net.meshes[0] + 1) * (net.meshes[1] + 1);
     elements += 2 * static_cast<std::int64_t>(net.meshes[0] + 1) * (net.meshes[1] + 1);
   }
   for (const auto& cable : scene_.cables) {
-    first_inner_node_.push_back(static_cast<int>(nodes));
+    first_inner_node_.emplace_back(static_cast<int>(nodes));
     nodes += cable.elements - 1;
     elements += cable.elements;
   }
   if (3 * std::max(nodes, elements) > std::numeric_limits<int>::max())
     throw InputError(
         fmt::format("{}: {} nodes are more than this build's 32-bit numbers can count", scene_.file, nodes));
-  network_.position.resize(static_cast<std::size_t>(nodes), Vector3::Zero());
-  network_.velocity.resize(static_cast<std::size_t>(nodes), Vector3::Zero());
-  prescribed_.assign(static_cast<std::size_t>(nodes), false);
+  network_.position.resize(static_cast<int>(nodes), Vector3::Zero());
+  network_.velocity.resize(static_cast<int>(nodes), Vector3::Zero());
+  prescribed_.resize(static_cast<int>(nodes), false);
   network_.gravity = scene_.gravity;
   network_.surroundings = make_surroundings(scene_);
   for (const auto& type : scene_.cable_types)
@@ -108,16 +107,15 @@ void Builder::number_nodes() {
 void Builder::place_points() {
   for (std::size_t i = 0; i < scene_.points.size(); ++i) {
     const scene::Point& point = scene_.points[i];
-    const int node = static_cast<int>(i);
-    network_.point_node.push_back(node);
-    network_.position[i] = point.position;
-    network_.velocity[i] = point.velocity;
+    const SceneNode node = network_.point_node.emplace_back(static_cast<int>(i));
+    network_.position[node] = point.position;
+    network_.velocity[node] = point.velocity;
     if (point.motion) {
       const scene::Kinematics start = point.motion->at(scene_.time.start);
-      network_.position[i] = start.x;
-      network_.velocity[i] = start.v;
+      network_.position[node] = start.x;
+      network_.velocity[node] = start.v;
       network_.prescribed.push_back({node, *point.motion});
-      prescribed_[i] = true;
+      prescribed_[node] = true;
     }
     if (point.mass > 0 || !point.force.isZero(0)) network_.loads.push_back({node, point.mass, point.force});
     const bool is_wet = point.volume > 0 || point.drag_area > 0 || point.added_mass > 0;
@@ -133,8 +131,8 @@ void Builder::lay_net(std::size_t index) {
     for (int i = 0; i <= net.meshes[0]; ++i) {
       const double u = static_cast<double>(i) / net.meshes[0];
       const double w = static_cast<double>(j) / net.meshes[1];
-      const int node = net_node(static_cast<int>(index), i, j);
-      network_.position[at(node)] = (1 - w) * ((1 - u) * c[0] + u * c[1]) + w * ((1 - u) * c[3] + u * c[2]);
+      const SceneNode node = net_node(static_cast<int>(index), i, j);
+      network_.position[node] = (1 - w) * ((1 - u) * c[0] + u * c[1]) + w * ((1 - u) * c[3] + u * c[2]);
       const bool held = std::any_of(net.fixed.begin(), net.fixed.end(), [&](scene::Edge edge) {
         switch (edge) {
           case scene::Edge::top:
@@ -149,21 +147,21 @@ void Builder::lay_net(std::size_t index) {
         return false;
       });
       if (!held) continue;
-      prescribed_[at(node)] = true;
-      network_.prescribed.push_back({node, scene::Motion::fixed(network_.position[at(node)])});
+      prescribed_[node] = true;
+      network_.prescribed.push_back({node, scene::Motion::fixed(network_.position[node])});
     }
 }
 
-int Builder::cable_node(std::size_t index, int k) {
+SceneNode Builder::cable_node(std::size_t index, int k) {
   const scene::Cable& cable = scene_.cables[index];
   if (k == 0) return end_node(cable.from);
   if (k == cable.elements) return end_node(cable.to);
-  return first_inner_node_[index] + k - 1;
+  return first_inner_node_[index] + (k - 1);
 }
 
-int Builder::end_node(const scene::CableEnd& end) {
+SceneNode Builder::end_node(const scene::CableEnd& end) {
   return std::visit(
-      Overloaded{[](const scene::PointEnd& point) { return point.point; },
+      Overloaded{[](const scene::PointEnd& point) { return SceneNode(point.point); },
                  [&](const scene::NetEnd& net) { return net_node(net.net, net.node[0], net.node[1]); },
                  [&](const scene::BodyEnd& body) { return attachment_nodes_[at(body.body)][at(body.attachment)]; },
                  [&](const scene::TapEnd& tap) {
@@ -176,8 +174,8 @@ int Builder::end_node(const scene::CableEnd& end) {
 void Builder::lay_cable(std::size_t index) {
   if (!arcs_[index].empty()) return;
   const scene::Cable& cable = scene_.cables[index];
-  const Vector3 a = network_.position[at(end_node(cable.from))];
-  const Vector3 b = network_.position[at(end_node(cable.to))];
+  const Vector3 a = network_.position[end_node(cable.from)];
+  const Vector3 b = network_.position[end_node(cable.to)];
   const double length = cable.length.value_or((b - a).norm());
   if (!(length > 0)) complain(cable, "its two ends lie on one point, so its length must be given; add `length`");
   for (const double tap : taps_[index])
@@ -208,7 +206,7 @@ void Builder::place_cable(std::size_t index, const Vector3& a, const Vector3& b)
                            "({:.6g}, {:.6g}, {:.6g}) to `to` ({:.6g}, {:.6g}, {:.6g})",
                            miss, a.x(), a.y(), a.z(), b.x(), b.y(), b.z()));
   }
-  for (int k = 1; k < cable.elements; ++k) network_.position[at(first_inner_node_[index] + k - 1)] = points[at(k)];
+  for (int k = 1; k < cable.elements; ++k) network_.position[cable_node(index, k)] = points[at(k)];
 }
 
 /// Before any cable is laid, for a neighbour's nodes may be drawn with its ends' velocities.
@@ -222,10 +220,10 @@ void Builder::set_end_velocities(std::size_t index) {
 void Builder::set_velocities(std::size_t index) {
   const scene::Cable& cable = scene_.cables[index];
   const std::vector<double>& arcs = arcs_[index];
-  const Vector3 v0 = network_.velocity[at(end_node(cable.from))];
-  const Vector3 v1 = network_.velocity[at(end_node(cable.to))];
+  const Vector3 v0 = network_.velocity[end_node(cable.from)];
+  const Vector3 v1 = network_.velocity[end_node(cable.to)];
   for (int k = 1; k < cable.elements; ++k)
-    network_.velocity[at(first_inner_node_[index] + k - 1)] =
+    network_.velocity[cable_node(index, k)] =
         cable.node_velocity.empty() ? v0 + (v1 - v0) * (arcs[at(k)] / arcs.back()) : cable.node_velocity[at(k)];
 }
 
@@ -233,8 +231,8 @@ void Builder::set_velocities(std::size_t index) {
 void Builder::set_end_velocity(std::size_t index, const scene::CableEnd& end, const Vector3& velocity) {
   if (const auto* body = std::get_if<scene::BodyEnd>(&end)) return compare_velocity(index, *body, velocity);
   const auto* point = std::get_if<scene::PointEnd>(&end);
-  if (point == nullptr || prescribed_[at(point->point)]) return;
-  Vector3& own = network_.velocity[at(point->point)];
+  if (point == nullptr || prescribed_[SceneNode(point->point)]) return;
+  Vector3& own = network_.velocity[SceneNode(point->point)];
   if (own.isZero(0)) own = velocity;
   if ((own - velocity).norm() > 1e-6 * own.norm())
     complain(scene_.cables[index],
@@ -243,7 +241,7 @@ void Builder::set_end_velocity(std::size_t index, const scene::CableEnd& end, co
 }
 
 void Builder::compare_velocity(std::size_t index, const scene::BodyEnd& end, const Vector3& velocity) const {
-  const Vector3& own = network_.velocity[at(attachment_nodes_[at(end.body)][at(end.attachment)])];
+  const Vector3& own = network_.velocity[attachment_nodes_[at(end.body)][at(end.attachment)]];
   if ((own - velocity).norm() <= 1e-6 * std::max(own.norm(), velocity.norm())) return;
   const scene::Body& body = scene_.bodies[at(end.body)];
   complain(scene_.cables[index],
@@ -264,8 +262,8 @@ void Builder::add_net_elements(std::size_t index) {
   const scene::Net& net = scene_.nets[index];
   const int id = static_cast<int>(index);
   const int first = static_cast<int>(network_.elements.size());
-  const auto join = [&](int a, int b) {
-    const double drawn = (network_.position[at(b)] - network_.position[at(a)]).norm();
+  const auto join = [&](SceneNode a, SceneNode b) {
+    const double drawn = (network_.position[b] - network_.position[a]).norm();
     network_.elements.push_back({{a, b}, net.type, net.slack * drawn});
   };
   for (int j = 0; j <= net.meshes[1]; ++j)
@@ -279,7 +277,7 @@ void Builder::add_net_elements(std::size_t index) {
 void Builder::check() const {
   for (std::size_t i = 0; i < network_.elements.size(); ++i) {
     const Element& element = network_.elements[i];
-    const double drawn = (network_.position[at(element.node[1])] - network_.position[at(element.node[0])]).norm();
+    const double drawn = (network_.position[element.node[1]] - network_.position[element.node[0]]).norm();
     if (!(drawn > 1e-9 * element.length) || !(element.length > 0))
       throw InputError(
           fmt::format("{}: {}: its two nodes are drawn on one point; draw the cable so that neighbouring nodes "

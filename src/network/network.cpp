@@ -14,7 +14,7 @@ std::string Network::element_name(int element) const {
 }
 
 std::int64_t Network::unknowns() const {
-  std::int64_t count = 3 * static_cast<std::int64_t>(position.size() - prescribed.size() - carried.size());
+  std::int64_t count = 3 * (position.size() - static_cast<std::int64_t>(prescribed.size() + carried.size()));
   for (const Body& body : bodies) count += bodies::rotation_unknowns(body.properties.rotation);
   return count;
 }

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <optional>
-#include <unordered_map>
 
 #include "cablenet/output/body_box.hpp"
 
@@ -11,8 +11,6 @@ namespace cablenet::output {
 namespace {
 
 using petsc::check;
-
-std::size_t at(std::int64_t index) { return static_cast<std::size_t>(index); }
 
 /// Position, velocity, quaternion, angular velocity.
 constexpr std::size_t values_per_body = 13;
@@ -59,12 +57,12 @@ Frames::Frames(const network::Network& network, const partition::Partition& part
   strain_.resize(at(here.own_elements));
   node_tension_.assign(at(here.nodes), 0);
   for (std::size_t i = 0; i < at(here.own_elements); ++i)
-    for (const int node : here.elements[i].node) node_tension_[at(node)] += 1;
+    for (const LocalNode node : here.elements[i].node) node_tension_[at(node)] += 1;
   send(all_nodes_, 1, node_tension_, elements_at_node_, MPI_SUM);
 }
 
 void Frames::fill_mesh(const network::Network& network, const partition::Partition& partition) {
-  mesh_.nodes = static_cast<std::int64_t>(network.position.size());
+  mesh_.nodes = network.position.size();
   mesh_.elements = static_cast<std::int64_t>(network.elements.size());
   mesh_.first_node = block_start(mesh_.nodes, rank_, ranks_);
   mesh_.local_nodes = block_start(mesh_.nodes, rank_ + 1, ranks_) - mesh_.first_node;
@@ -72,7 +70,8 @@ void Frames::fill_mesh(const network::Network& network, const partition::Partiti
   std::size_t span = 0;
   for (auto e = mesh_.first_element; e < block_start(mesh_.elements, rank_ + 1, ranks_); ++e) {
     while (e >= network.spans[span].first_element + network.spans[span].elements) ++span;
-    mesh_.lines.push_back(network.elements[at(e)].node);
+    const auto& [from, to] = network.elements[at(e)].node;
+    mesh_.lines.push_back({from.value(), to.value()});
     mesh_.cable_id.push_back(static_cast<int>(span));
     mesh_.rank.push_back(partition.element_owner[at(e)]);
   }
@@ -84,7 +83,7 @@ void Frames::fill_bodies(const network::Network& network) {
   for (const auto& body : network.bodies) mesh_.body_names.push_back(body.name);
   bodies_.resize(values_per_body * network.bodies.size());
   if (rank_ != 0) return;
-  std::unordered_map<int, double> mass;
+  std::map<SceneNode, double> mass;
   for (const auto& load : network.loads) mass[load.node] = load.mass;
   for (const auto& body : network.bodies) {
     const bool turns = body.properties.rotation != bodies::Rotation::none;
@@ -118,10 +117,10 @@ void Frames::make_forests() {
   const partition::LocalNetwork& here = assembler_.network();
   std::vector<PetscInt> spoken_for;
   std::vector<PetscSFNode> spoken_places, places, element_places;
-  for (int i = 0; i < here.nodes; ++i) {
-    places.push_back(block_place(mesh_.nodes, here.scene_node[at(i)], ranks_));
-    if (!here.primary[at(i)]) continue;
-    spoken_for.push_back(i);
+  for (LocalNode node(0); node.value() < here.nodes; ++node) {
+    places.push_back(block_place(mesh_.nodes, here.scene_node[node].value(), ranks_));
+    if (!here.primary[node]) continue;
+    spoken_for.push_back(node.value());
     spoken_places.push_back(places.back());
   }
   for (std::size_t i = 0; i < at(here.own_elements); ++i)
@@ -147,7 +146,7 @@ void Frames::compute_tensions(const system::LocalState& state) {
     const elements::Chord chord = state.chord(element);
     tension_[i] = elements::cable_tension(here.materials[at(element.material)], element.length, chord);
     strain_[i] = (chord.d.norm() - element.length) / element.length;
-    for (const int node : element.node) node_tension_[at(node)] += tension_[i];
+    for (const LocalNode node : element.node) node_tension_[at(node)] += tension_[i];
   }
 }
 

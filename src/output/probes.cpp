@@ -6,27 +6,32 @@
 namespace cablenet::output {
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
+/// Where this rank has the scene's nodes.
+Table<SceneNode, LocalNode> local_nodes(const partition::LocalNetwork& here, int scene_nodes) {
+  Table<SceneNode, LocalNode> local(scene_nodes);
+  for (LocalNode node(0); node.value() < here.nodes; ++node) local[here.scene_node[node]] = node;
+  return local;
+}
 
-/// Where this rank has the scene's nodes and the elements that belong to it, -1: not here.
-std::vector<int> places(const std::vector<int>& scene_index, std::size_t count, std::size_t size) {
-  std::vector<int> place(size, -1);
-  for (std::size_t i = 0; i < count; ++i) place[at(scene_index[i])] = static_cast<int>(i);
-  return place;
+/// Where this rank has the elements that belong to it, -1: not here.
+std::vector<int> own_elements(const partition::LocalNetwork& here, std::size_t scene_elements) {
+  std::vector<int> own(scene_elements, -1);
+  for (int i = 0; i < here.own_elements; ++i) own[at(here.scene_element[at(i)])] = i;
+  return own;
 }
 
 constexpr const char* motion_names[] = {"x", "y", "z", "vx", "vy", "vz", "ax", "ay", "az"};
 
 /// Free nodes with one element and no load: nothing pulls there.
-std::vector<bool> bare_ends(const network::Network& network) {
-  std::vector<int> pulls(network.position.size(), 0);
+Table<SceneNode, bool> bare_ends(const network::Network& network) {
+  Table<SceneNode, int> pulls(network.position.size(), 0);
   for (const auto& element : network.elements)
-    for (const int node : element.node) ++pulls[at(node)];
-  for (const auto& held : network.prescribed) pulls[at(held.node)] += 2;
-  for (const auto& load : network.loads) pulls[at(load.node)] += 2;
-  for (const auto& carried : network.carried) pulls[at(carried.node)] += 2;
-  for (const auto& link : network.links) pulls[at(link.node[0])] += 2;
-  std::vector<bool> bare(pulls.size());
+    for (const SceneNode node : element.node) ++pulls[node];
+  for (const auto& held : network.prescribed) pulls[held.node] += 2;
+  for (const auto& load : network.loads) pulls[load.node] += 2;
+  for (const auto& carried : network.carried) pulls[carried.node] += 2;
+  for (const auto& link : network.links) pulls[link.node[0]] += 2;
+  Table<SceneNode, bool> bare(pulls.size());
   std::transform(pulls.begin(), pulls.end(), bare.begin(), [](int count) { return count == 1; });
   return bare;
 }
@@ -36,15 +41,15 @@ std::vector<bool> bare_ends(const network::Network& network) {
 Probes::Probes(const scene::Scene& scene, const network::Network& network, const system::Assembler& assembler)
     : assembler_(assembler), columns_{"time"}, energy_(scene.output.energy) {
   const partition::LocalNetwork& here = assembler.network();
-  Places where{places(here.scene_node, at(here.nodes), network.position.size()),
-               places(here.scene_element, at(here.own_elements), network.elements.size()),
+  Lookup where{local_nodes(here, network.position.size()),
+               own_elements(here, network.elements.size()),
                bare_ends(network),
                {},
                {}};
   for (std::size_t i = 0; i < here.loads.size(); ++i) where.load[here.loads[i].node] = static_cast<int>(i);
   for (int i = 0; i < here.own_elements; ++i)
     for (int side = 0; side < 2; ++side)
-      if (const int node = here.elements[at(i)].node[at(side)]; !here.is_free(node))
+      if (const LocalNode node = here.elements[at(i)].node[at(side)]; !here.is_free(node))
         where.ends[node].push_back({i, side});
   for (const auto& item : scene.output.history) {
     if (item.kind == scene::HistoryKind::point) add_point(scene, network, item.index, where);
@@ -57,14 +62,14 @@ Probes::Probes(const scene::Scene& scene, const network::Network& network, const
   row_.resize(columns_.size());
 }
 
-void Probes::add_point(const scene::Scene& scene, const network::Network& network, int index, const Places& where) {
+void Probes::add_point(const scene::Scene& scene, const network::Network& network, int index, const Lookup& where) {
   const partition::LocalNetwork& here = assembler_.network();
-  const int node = network.point_node[at(index)];
+  const SceneNode node = network.point_node[at(index)];
   const scene::Point& point = scene.points[at(index)];
   PointProbe probe{columns_.size()};
   probe.prescribed = point.motion.has_value();
-  const int local = where.node[at(node)];
-  if (local >= 0 && here.primary[at(local)]) probe.node = local;
+  const LocalNode local = where.node[node];
+  if (local.exists() && here.primary[local]) probe.node = local;
   if (const auto load = where.load.find(probe.node); load != where.load.end()) probe.load = load->second;
   if (const auto ends = where.ends.find(local); ends != where.ends.end()) probe.ends = ends->second;
   points_.push_back(probe);
@@ -84,13 +89,13 @@ void Probes::add_body(const network::Network& network, int index) {
   for (const char* name : {"qw", "qx", "qy", "qz", "wx", "wy", "wz"}) columns_.push_back(body + "." + name);
 }
 
-void Probes::add_cable(const network::Network& network, int index, const Places& where) {
+void Probes::add_cable(const network::Network& network, int index, const Lookup& where) {
   const network::Span& span = network.spans[at(index)];
   const std::array<int, 2> element{span.first_element, span.first_element + span.elements - 1};
   for (int side = 0; side < 2; ++side) {
     const int local = where.element[at(element[at(side)])];
-    const int node = network.elements[at(element[at(side)])].node[at(side)];
-    if (local >= 0 && !where.bare_end[at(node)]) cables_.push_back({columns_.size(), {local, side}});
+    const SceneNode node = network.elements[at(element[at(side)])].node[at(side)];
+    if (local >= 0 && !where.bare_end[node]) cables_.push_back({columns_.size(), {local, side}});
     columns_.push_back(span.name + (side == 0 ? ".tension_from" : ".tension_to"));
   }
 }
@@ -110,7 +115,7 @@ void Probes::put(std::size_t column, const Vector3& value) {
   for (std::size_t k = 0; k < 3; ++k) row_[column + k] += value(static_cast<Eigen::Index>(k));
 }
 
-void Probes::put_motion(std::size_t column, const system::LocalState& state, int node) {
+void Probes::put_motion(std::size_t column, const system::LocalState& state, LocalNode node) {
   put(column, system::LocalState::at(state.x, node));
   put(column + 3, system::LocalState::at(state.v, node));
   put(column + 6, system::LocalState::at(state.a, node));
@@ -121,7 +126,7 @@ const std::vector<double>& Probes::row(const system::LocalState& state) {
   const partition::LocalNetwork& here = assembler_.network();
   std::fill(row_.begin(), row_.end(), 0.0);
   for (const PointProbe& probe : points_) {
-    if (probe.node >= 0) put_motion(probe.column, state, probe.node);
+    if (probe.node.exists()) put_motion(probe.column, state, probe.node);
     for (const ElementEnd& end : probe.ends) put(probe.column + 9, end_force(state, end));
     if (probe.prescribed && probe.load >= 0) {
       const auto& [node, mass, force] = here.loads[at(probe.load)];
@@ -129,7 +134,7 @@ const std::vector<double>& Probes::row(const system::LocalState& state) {
     }
   }
   for (const BodyProbe& probe : bodies_) {
-    if (probe.node < 0) continue;
+    if (!probe.node.exists()) continue;
     put_motion(probe.column, state, probe.node);
     const auto& [q, w] = state.bodies[probe.body];
     row_[probe.column + 9] = q.w();

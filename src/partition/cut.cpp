@@ -9,10 +9,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "cablenet/base/index.hpp"
+
 namespace cablenet::partition {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// The graph as METIS wants it.
 class Cutter {

@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "cablenet/base/index.hpp"
+
 namespace cablenet::partition {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 std::vector<int> dissect(const Graph& graph) {
   idx_t vertices = graph.vertices();

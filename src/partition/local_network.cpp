@@ -1,23 +1,20 @@
 #include "cablenet/partition/local_network.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <unordered_set>
 
 namespace cablenet::partition {
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
-/// Numbers this rank's nodes; local_of[scene node] is -1 where the node is not here.
+/// Numbers this rank's nodes; local_of[scene node] is none where the node is not here.
 class Extraction {
 public:
   Extraction(const network::Network& network, const Partition& partition, int rank)
-      : network_(network), partition_(partition), rank_(rank), local_of_(network.position.size(), -1) {
+      : network_(network), partition_(partition), rank_(rank), local_of_(network.position.size()) {
     if (network.carried.empty()) return;
     anchor_.resize(network.position.size());
-    std::iota(anchor_.begin(), anchor_.end(), 0);
-    for (const auto& carried : network.carried) anchor_[at(carried.node)] = network.bodies[at(carried.body)].node;
+    for (SceneNode node(0); node.value() < anchor_.size(); ++node) anchor_[node] = node;
+    for (const auto& carried : network.carried) anchor_[carried.node] = network.bodies[at(carried.body)].node;
   }
 
   LocalNetwork extract() {
@@ -30,16 +27,16 @@ public:
     add_bodies();
     for (const auto* group : {&inner_, &rim_, &attached_, &attached_copies_, &copies_}) add_elements(*group);
     for (const auto& [node, stiffness] : links_)
-      here_.links.push_back({{local_of_[at(node[0])], local_of_[at(node[1])]}, stiffness});
+      here_.links.push_back({{local_of_[node[0]], local_of_[node[1]]}, stiffness});
     here_.inner_elements = static_cast<int>(inner_.size());
     here_.attached.first = here_.inner_elements + static_cast<int>(rim_.size());
     here_.own_elements = here_.attached.first + static_cast<int>(attached_.size());
     here_.attached.last = here_.own_elements + static_cast<int>(attached_copies_.size());
     for (const auto& load : network_.loads)
-      if (local_of_[at(load.node)] >= 0 && here_.primary[at(local_of_[at(load.node)])])
-        here_.loads.push_back({local_of_[at(load.node)], load.mass, load.force});
+      if (const LocalNode node = local_of_[load.node]; speaks_for(node))
+        here_.loads.push_back({node, load.mass, load.force});
     for (const auto& point : network_.wet_points)
-      if (const int node = local_of_[at(point.node)]; node >= 0 && here_.primary[at(node)])
+      if (const LocalNode node = local_of_[point.node]; speaks_for(node))
         here_.wet_points.push_back({node, point.water});
     here_.materials = network_.materials;
     here_.surroundings = network_.surroundings;
@@ -50,24 +47,26 @@ public:
 
 private:
   /// The node whose unknowns move this one.
-  int anchor(int node) const { return anchor_.empty() ? node : anchor_[at(node)]; }
-  bool is_carried(int node) const { return anchor(node) != node; }
-  bool is_owned(int node) const { return local_of_[at(anchor(node))] >= 0; }
+  SceneNode anchor(SceneNode node) const { return anchor_.empty() ? node : anchor_[node]; }
+  bool is_carried(SceneNode node) const { return anchor(node) != node; }
+  bool is_owned(SceneNode node) const { return local_of_[anchor(node)].exists(); }
+  bool speaks_for(LocalNode node) const { return node.exists() && here_.primary[node]; }
+  bool is_free(SceneNode node) const { return partition_.solver_number[node].exists(); }
 
-  void add_node(int node, bool primary) {
-    local_of_[at(node)] = here_.nodes++;
+  void add_node(SceneNode node, bool primary) {
+    local_of_[node] = LocalNode(here_.nodes++);
     here_.scene_node.push_back(node);
     here_.primary.push_back(primary);
-    here_.position.push_back(network_.position[at(node)]);
-    here_.velocity.push_back(network_.velocity[at(node)]);
+    here_.position.push_back(network_.position[node]);
+    here_.velocity.push_back(network_.velocity[node]);
   }
 
   /// Calls visit(node) for each element's and link's free ends on other ranks than its other end.
   template <class Visit>
   void for_each_cut_end(Visit&& visit) const {
-    const auto visit_ends = [&](int a, int b) {
-      if (partition_.solver_number[at(a)] < 0 || partition_.solver_number[at(b)] < 0) return;
-      if (partition_.node_owner[at(a)] == partition_.node_owner[at(b)]) return;
+    const auto visit_ends = [&](SceneNode a, SceneNode b) {
+      if (!is_free(a) || !is_free(b)) return;
+      if (partition_.node_owner[a] == partition_.node_owner[b]) return;
       visit(a);
       visit(b);
     };
@@ -77,18 +76,18 @@ private:
 
   void add_owned() {
     here_.first_number = partition_.first_number[at(rank_)];
-    here_.free_nodes = partition_.first_number.back();
+    here_.free_nodes = partition_.first_number.back().value();
     here_.owned = partition_.first_number[at(rank_) + 1] - here_.first_number;
-    std::vector<int> in_order(at(here_.owned));
-    for (std::size_t node = 0; node < partition_.solver_number.size(); ++node)
-      if (partition_.solver_number[node] >= 0 && partition_.node_owner[node] == rank_ &&
-          !is_carried(static_cast<int>(node)))
-        in_order[at(partition_.solver_number[node] - here_.first_number)] = static_cast<int>(node);
-    for (const int node : in_order) add_node(node, true);
+    std::vector<SceneNode> in_order(at(here_.owned));
+    for (SceneNode node(0); node.value() < network_.position.size(); ++node)
+      if (is_free(node) && partition_.node_owner[node] == rank_ && !is_carried(node))
+        in_order[at(partition_.solver_number[node] - here_.first_number)] = node;
+    for (const SceneNode node : in_order) add_node(node, true);
     const int begin = here_.blocks.begin(here_.first_number);
-    for (int i = 0; i <= here_.owned; ++i) here_.begin.push_back(here_.blocks.begin(here_.first_number + i) - begin);
+    for (int i = 0; i <= here_.owned; ++i)
+      here_.begin.push_back(Unknown(here_.blocks.begin(here_.first_number + i) - begin));
     here_.interior = here_.owned;
-    for (const int number : partition_.interface.number)
+    for (const SolverNumber number : partition_.interface.number)
       if (number >= here_.first_number && number < here_.first_number + here_.owned) --here_.interior;
   }
 
@@ -116,60 +115,60 @@ private:
         std::count_if(links_.begin(), links_.end(), [this](const auto& link) { return is_owned(link.node[0]); }));
   }
 
-  int first_node(std::size_t e) const {
+  LocalNode first_node(std::size_t e) const {
     const auto [a, b] = network_.elements[e].node;
-    return std::min(local_of_[at(a)], local_of_[at(b)]);
+    return std::min(local_of_[a], local_of_[b]);
   }
 
   void add_ghosts() {
-    const auto add = [this](int carried_or_not) {
-      const int node = anchor(carried_or_not);
-      if (partition_.solver_number[at(node)] < 0 || local_of_[at(node)] >= 0) return;
+    const auto add = [this](SceneNode carried_or_not) {
+      const SceneNode node = anchor(carried_or_not);
+      if (!is_free(node) || local_of_[node].exists()) return;
       add_node(node, false);
-      here_.ghost_number.push_back(partition_.solver_number[at(node)]);
-      here_.ghost_owner.push_back(partition_.node_owner[at(node)]);
+      here_.ghost_number.push_back(partition_.solver_number[node]);
+      here_.ghost_owner.push_back(partition_.node_owner[node]);
       ++here_.ghosts;
     };
     for (const auto* group : {&rim_, &attached_, &attached_copies_, &copies_})
       for (const std::size_t e : *group)
-        for (const int node : network_.elements[e].node) add(node);
+        for (const SceneNode node : network_.elements[e].node) add(node);
     for (const auto& link : links_)
-      for (const int node : link.node) add(node);
-    place_sent_nodes();
+      for (const SceneNode node : link.node) add(node);
+    list_sent_nodes();
   }
 
-  /// Each rank lists the nodes that it sends by their numbers, so that every rank can tell a ghost's place.
-  void place_sent_nodes() {
-    std::vector<int> sent;
-    for_each_cut_end([&](int node) { sent.push_back(partition_.solver_number[at(node)]); });
+  /// Each rank lists the nodes that it sends by their numbers, so that every rank can tell a ghost's slot.
+  void list_sent_nodes() {
+    std::vector<SolverNumber> sent;
+    for_each_cut_end([&](SceneNode node) { sent.push_back(partition_.solver_number[node]); });
     std::sort(sent.begin(), sent.end());
     sent.erase(std::unique(sent.begin(), sent.end()), sent.end());
-    const auto place = [&](int number) {
+    const auto slot = [&](SolverNumber number) {
       return static_cast<int>(std::lower_bound(sent.begin(), sent.end(), number) - sent.begin());
     };
     const auto& first = partition_.first_number;
     for (std::size_t g = 0; g < here_.ghost_number.size(); ++g)
-      here_.ghost_place.push_back(place(here_.ghost_number[g]) - place(first[at(here_.ghost_owner[g])]));
-    for (int i = place(first[at(rank_)]); i < place(first[at(rank_) + 1]); ++i)
-      here_.sent.push_back(sent[at(i)] - here_.first_number);
+      here_.ghost_slot.push_back(slot(here_.ghost_number[g]) - slot(first[at(here_.ghost_owner[g])]));
+    for (int i = slot(first[at(rank_)]); i < slot(first[at(rank_) + 1]); ++i)
+      here_.sent.emplace_back(sent[at(i)] - here_.first_number);
   }
 
   void add_prescribed() {
-    std::vector<bool> touched(network_.position.size(), false);
+    Table<SceneNode, bool> touched(network_.position.size(), false);
     for (const auto* group : {&rim_, &attached_})
       for (const std::size_t e : *group)
-        for (const int node : network_.elements[e].node) touched[at(node)] = true;
+        for (const SceneNode node : network_.elements[e].node) touched[node] = true;
     for (const auto& held : network_.prescribed) {
-      const bool primary = partition_.node_owner[at(held.node)] == rank_;
-      if (!primary && !touched[at(held.node)]) continue;
+      const bool primary = partition_.node_owner[held.node] == rank_;
+      if (!primary && !touched[held.node]) continue;
       add_node(held.node, primary);
-      here_.prescribed.push_back({local_of_[at(held.node)], held.motion});
+      here_.prescribed.push_back({local_of_[held.node], held.motion});
     }
   }
 
   /// A body of another rank carries only the nodes that are at elements and links here.
   void add_bodies() {
-    std::unordered_set<int> touched;
+    std::unordered_set<SceneNode> touched;
     for (const auto* group : {&attached_, &attached_copies_})
       for (const std::size_t e : *group)
         touched.insert(network_.elements[e].node.begin(), network_.elements[e].node.end());
@@ -179,19 +178,19 @@ private:
     });
     for (const bool own : {true, false})
       for (std::size_t b = 0; b < network_.bodies.size(); ++b)
-        if (const int node = local_of_[at(network_.bodies[b].node)]; node >= 0 && (node < here_.owned) == own)
+        if (const LocalNode node = local_of_[network_.bodies[b].node]; node.exists() && here_.is_owned(node) == own)
           add_body(static_cast<int>(b), node, touched);
   }
 
-  void add_body(int index, int node, const std::unordered_set<int>& touched) {
+  void add_body(int index, LocalNode node, const std::unordered_set<SceneNode>& touched) {
     const network::Body& body = network_.bodies[at(index)];
-    const bool own = node < here_.owned;
+    const bool own = here_.is_owned(node);
     LocalBody local{node, index, body.properties, body.start, body.water, static_cast<int>(here_.carried.size()), 0};
     for (int k = body.first_carried; k < body.first_carried + body.carried; ++k) {
       const network::CarriedNode& carried = network_.carried[at(k)];
       if (!own && !touched.contains(carried.node)) continue;
       add_node(carried.node, own);
-      here_.carried.push_back({local_of_[at(carried.node)], static_cast<int>(here_.bodies.size()), carried.offset});
+      here_.carried.push_back({local_of_[carried.node], static_cast<int>(here_.bodies.size()), carried.offset});
       ++local.carried;
     }
     if (own) ++here_.own_bodies;
@@ -199,11 +198,11 @@ private:
   }
 
   void add_elements(const std::vector<std::size_t>& group) {
-    const auto place = [this](int node) { return node < here_.owned ? here_.begin[at(node)] : -1; };
+    const auto unknown = [this](LocalNode node) { return here_.is_owned(node) ? here_.begin[node] : Unknown(); };
     for (const std::size_t e : group) {
       const auto& element = network_.elements[e];
-      const int a = local_of_[at(element.node[0])], b = local_of_[at(element.node[1])];
-      here_.elements.push_back({{a, b}, {place(a), place(b)}, element.material, element.length});
+      const LocalNode a = local_of_[element.node[0]], b = local_of_[element.node[1]];
+      here_.elements.push_back({{a, b}, {unknown(a), unknown(b)}, element.material, element.length});
       here_.scene_element.push_back(static_cast<int>(e));
     }
   }
@@ -211,11 +210,11 @@ private:
   const network::Network& network_;
   const Partition& partition_;
   int rank_;
-  std::vector<int> local_of_;
-  std::vector<int> anchor_;                         ///< per scene node; empty if none is carried
+  Table<SceneNode, LocalNode> local_of_;
+  Table<SceneNode, SceneNode> anchor_;              ///< empty if none is carried
   std::vector<std::size_t> inner_, rim_, copies_;   ///< elements: between owned nodes, other own ones, another rank's
   std::vector<std::size_t> attached_, attached_copies_;   ///< those at carried nodes: own ones, another rank's
-  std::vector<network::Link> links_;
+  std::vector<network::Link<SceneNode>> links_;
   LocalNetwork here_;
 };
 

@@ -9,39 +9,37 @@
 namespace cablenet::partition {
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 /// Nodes that move on their own.
 struct FreeNodes {
-  std::vector<int> node;     ///< per vertex
-  std::vector<int> vertex;   ///< per node: its own or that of the body that carries it; -1 if prescribed
+  std::vector<SceneNode> node;    ///< per vertex
+  Table<SceneNode, int> vertex;   ///< its own or that of the body that carries it; -1 if prescribed
 };
 
 FreeNodes find_free_nodes(const network::Network& network) {
-  FreeNodes free{{}, std::vector<int>(network.position.size(), 0)};
-  for (const auto& held : network.prescribed) free.vertex[at(held.node)] = -1;
-  for (const auto& carried : network.carried) free.vertex[at(carried.node)] = -1;
-  for (std::size_t i = 0; i < free.vertex.size(); ++i)
-    if (free.vertex[i] == 0) {
-      free.vertex[i] = static_cast<int>(free.node.size());
-      free.node.push_back(static_cast<int>(i));
+  FreeNodes free{{}, Table<SceneNode, int>(network.position.size(), 0)};
+  for (const auto& held : network.prescribed) free.vertex[held.node] = -1;
+  for (const auto& carried : network.carried) free.vertex[carried.node] = -1;
+  for (SceneNode node(0); node.value() < free.vertex.size(); ++node)
+    if (free.vertex[node] == 0) {
+      free.vertex[node] = static_cast<int>(free.node.size());
+      free.node.push_back(node);
     }
   for (const auto& carried : network.carried)
-    free.vertex[at(carried.node)] = free.vertex[at(network.bodies[at(carried.body)].node)];
+    free.vertex[carried.node] = free.vertex[network.bodies[at(carried.body)].node];
   return free;
 }
 
 /// The graph whose vertices are the nodes with vertex[node] >= 0 and whose edges are the elements between them.
-Graph node_graph(const network::Network& network, const std::vector<int>& vertex, int vertices) {
+Graph node_graph(const network::Network& network, const Table<SceneNode, int>& vertex, int vertices) {
   Graph graph;
   graph.first.assign(at(vertices) + 1, 0);
   const auto for_each_edge = [&](auto&& visit) {
     for (const auto& element : network.elements) {
-      const int a = vertex[at(element.node[0])];
-      const int b = vertex[at(element.node[1])];
+      const int a = vertex[element.node[0]];
+      const int b = vertex[element.node[1]];
       if (a >= 0 && b >= 0 && a != b) visit(a, b);
     }
-    for (const auto& link : network.links) visit(vertex[at(link.node[0])], vertex[at(link.node[1])]);
+    for (const auto& link : network.links) visit(vertex[link.node[0]], vertex[link.node[1]]);
   };
   for_each_edge([&](int a, int b) { ++graph.first[at(a) + 1], ++graph.first[at(b) + 1]; });
   std::partial_sum(graph.first.begin(), graph.first.end(), graph.first.begin());
@@ -112,16 +110,17 @@ std::vector<int> order_part(const Graph& graph, const Cut& cut, int part) {
 }
 
 /// @param order vertices, rank after rank   @param part of every vertex
-void number_nodes(const std::vector<int>& order, const std::vector<int>& free_nodes, const std::vector<int>& part,
-                  int ranks, std::size_t nodes, Partition& partition) {
-  partition.node_owner.assign(nodes, 0);
-  partition.solver_number.assign(nodes, -1);
-  partition.first_number.assign(at(ranks) + 1, 0);
-  int number = 0;
+void number_nodes(const std::vector<int>& order, const std::vector<SceneNode>& free_nodes, const std::vector<int>& part,
+                  int ranks, int nodes, Partition& partition) {
+  partition.node_owner.resize(nodes, 0);
+  partition.solver_number.resize(nodes);
+  partition.first_number.assign(at(ranks) + 1, SolverNumber(0));
+  SolverNumber number(0);
   for (const int v : order) {
-    const int node = free_nodes[at(v)];
-    partition.node_owner[at(node)] = part[at(v)];
-    partition.solver_number[at(node)] = number++;
+    const SceneNode node = free_nodes[at(v)];
+    partition.node_owner[node] = part[at(v)];
+    partition.solver_number[node] = number;
+    ++number;
     partition.first_number[at(part[at(v)]) + 1] = number;
   }
   for (std::size_t r = 1; r < partition.first_number.size(); ++r)
@@ -131,19 +130,19 @@ void number_nodes(const std::vector<int>& order, const std::vector<int>& free_no
 /// Carried nodes go where their bodies go.
 void number_carried(const network::Network& network, Partition& partition) {
   for (const auto& carried : network.carried) {
-    const int body = network.bodies[at(carried.body)].node;
-    partition.node_owner[at(carried.node)] = partition.node_owner[at(body)];
-    partition.solver_number[at(carried.node)] = partition.solver_number[at(body)];
+    const SceneNode body = network.bodies[at(carried.body)].node;
+    partition.node_owner[carried.node] = partition.node_owner[body];
+    partition.solver_number[carried.node] = partition.solver_number[body];
   }
 }
 
 Blocks make_blocks(const network::Network& network, const Partition& partition) {
-  std::vector<std::pair<int, int>> large;
+  std::vector<std::pair<SolverNumber, int>> large;
   for (const auto& body : network.bodies)
     if (const int more = bodies::rotation_unknowns(body.properties.rotation); more > 0)
-      large.emplace_back(partition.solver_number[at(body.node)], 3 + more);
+      large.emplace_back(partition.solver_number[body.node], 3 + more);
   std::sort(large.begin(), large.end());
-  return {partition.first_number.back(), std::move(large)};
+  return {partition.first_number.back().value(), std::move(large)};
 }
 
 /// Nodes' worth that a body that turns, and one of its cables' ends, take in a step.
@@ -153,26 +152,27 @@ std::vector<int> work_of(const network::Network& network, const FreeNodes& free)
   std::vector<int> work(free.node.size(), 1);
   for (const auto& body : network.bodies)
     if (bodies::rotation_unknowns(body.properties.rotation) > 0)
-      work[at(free.vertex[at(body.node)])] += body_work + attachment_work * body.carried;
+      work[at(free.vertex[body.node])] += body_work + attachment_work * body.carried;
   return work;
 }
 
 void assign_elements(const network::Network& network, Partition& partition) {
   // An element without free nodes goes to a rank that has rows, so that every rank with elements has a voice in norms.
-  const auto first_rank = std::upper_bound(partition.first_number.begin(), partition.first_number.end(), 0);
+  const auto first_rank =
+      std::upper_bound(partition.first_number.begin(), partition.first_number.end(), SolverNumber(0));
   const int otherwise = static_cast<int>(first_rank - partition.first_number.begin()) - 1;
   partition.element_owner.reserve(network.elements.size());
   for (const auto& [node, material, length] : network.elements) {
     const auto free_end =
-        std::find_if(node.begin(), node.end(), [&](int n) { return partition.solver_number[at(n)] >= 0; });
-    partition.element_owner.push_back(free_end == node.end() ? otherwise : partition.node_owner[at(*free_end)]);
+        std::find_if(node.begin(), node.end(), [&](SceneNode n) { return partition.solver_number[n].exists(); });
+    partition.element_owner.push_back(free_end == node.end() ? otherwise : partition.node_owner[*free_end]);
   }
-  std::vector<bool> taken(network.position.size(), false);
+  Table<SceneNode, bool> taken(network.position.size(), false);
   for (std::size_t i = 0; i < network.elements.size(); ++i)
-    for (const int node : network.elements[i].node)
-      if (partition.solver_number[at(node)] < 0 && !taken[at(node)]) {
-        taken[at(node)] = true;
-        partition.node_owner[at(node)] = partition.element_owner[i];
+    for (const SceneNode node : network.elements[i].node)
+      if (!partition.solver_number[node].exists() && !taken[node]) {
+        taken[node] = true;
+        partition.node_owner[node] = partition.element_owner[i];
       }
 }
 
@@ -191,7 +191,7 @@ Partition make_partition(const network::Network& network, MPI_Comm communicator)
   number_carried(network, partition);
   partition.blocks = make_blocks(network, partition);
   partition.interface.graph = std::move(cut.coupled);
-  for (const int v : cut.order) partition.interface.number.push_back(partition.solver_number[at(free.node[at(v)])]);
+  for (const int v : cut.order) partition.interface.number.push_back(partition.solver_number[free.node[at(v)]]);
   assign_elements(network, partition);
   return partition;
 }

@@ -18,21 +18,23 @@ public:
   CouplingExchange(MPI_Comm communicator, const partition::Blocks& blocks, int tag)
       : communicator_(communicator), blocks_(blocks), tag_(tag) {}
 
-  /// Both are named by solver numbers; every block must be told to both ranks before the first run().
-  void add_send(int rank, int row, int column, const elimination::BlockSource& source) {
+  /// Every block must be told to both ranks before the first run().
+  void add_send(int rank, SolverNumber row, SolverNumber column, const elimination::BlockSource& source) {
     sends_[rank][{row, column}] = source;
   }
-  void add_receive(int rank, int row, int column) { receives_[rank][{row, column}] = {}; }
+  void add_receive(int rank, SolverNumber row, SolverNumber column) { receives_[rank][{row, column}] = {}; }
   /// After the last add_receive: where block (row, column) will stand in received().
   void settle();
-  elimination::BlockSource source(int rank, int row, int column) const { return receives_.at(rank).at({row, column}); }
+  elimination::BlockSource source(int rank, SolverNumber row, SolverNumber column) const {
+    return receives_.at(rank).at({row, column});
+  }
 
   const double* received() const { return received_.data(); }
   /// Between neighbours; every rank must call it.
   void run(const elimination::Arrays& arrays);
 
 private:
-  using Couplings = std::map<std::pair<int, int>, elimination::BlockSource>;
+  using Couplings = std::map<std::pair<SolverNumber, SolverNumber>, elimination::BlockSource>;
 
   /// A neighbour's share of a buffer.
   struct Message {

@@ -227,7 +227,7 @@ void Dynamics::explain_failure() {
   if (!linear_.elimination) return;
   const PivotReport pivots = linear_.elimination->pivots();
   failed_node_ = pivots.singular_node;
-  if (failed_node_ >= 0) failure_ += "; the tangent is singular there";
+  if (failed_node_.exists()) failure_ += "; the tangent is singular there";
   if (pivots.negative > 0) failure_ += fmt::format("; the tangent has {} negative pivots", pivots.negative);
 }
 

@@ -10,8 +10,6 @@ using petsc::check;
 /// Larger than any residual.
 constexpr double unnatural = 1e300;
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 }   // namespace
 
 FailedPlace worst_place(const system::Assembler& assembler, Vec residual, const KnownFailure& known) {
@@ -23,14 +21,14 @@ FailedPlace worst_place(const system::Assembler& assembler, Vec residual, const 
     double size;
     int place;
   } worst{-1, 0};
-  const auto look_at = [&](int node, int unknowns, int place) {
-    if (node >= network.owned) return;
-    double size = Eigen::Map<const Eigen::VectorXd>(values + network.begin[at(node)], unknowns).norm();
+  const auto look_at = [&](LocalNode node, int unknowns, int place) {
+    if (!network.is_owned(node)) return;
+    double size = Eigen::Map<const Eigen::VectorXd>(values + network.begin[node].value(), unknowns).norm();
     if (!std::isfinite(size) || network.number(node) == known.singular_node) size = unnatural;
     if (size > worst.size) worst = {size, place};
   };
   for (std::size_t i = 0; i < network.elements.size(); ++i)
-    for (const int node : network.elements[i].node) look_at(node, 3, network.scene_element[i]);
+    for (const LocalNode node : network.elements[i].node) look_at(node, 3, network.scene_element[i]);
   for (const auto& body : network.bodies)
     look_at(body.node, 3 + bodies::rotation_unknowns(body.properties.rotation), -1 - body.body);
   check(VecRestoreArrayRead(residual, &values));

@@ -6,7 +6,7 @@ namespace cablenet::solve {
 
 /// What is known of a failure besides its residual.  Numbers in network::Network, -1: none.
 struct KnownFailure {
-  int singular_node = -1;     ///< solver number
+  SolverNumber singular_node;
   int outside_element = -1;   ///< that lost its length
   int outside_body = -1;      ///< that turned out of its domain
 };

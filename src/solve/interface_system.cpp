@@ -8,8 +8,6 @@
 namespace cablenet::solve {
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 partition::Graph rows_of(const partition::Graph& graph) {
   partition::Graph rows;
   rows.first.push_back(0);
@@ -28,7 +26,7 @@ partition::Graph rows_of(const partition::Graph& graph) {
 
 elimination::Pattern InterfaceSystem::pattern(const partition::Interface& interface, const partition::Blocks& blocks) {
   std::vector<int> size;
-  for (const int number : interface.number) size.push_back(blocks.size(number));
+  for (const SolverNumber number : interface.number) size.push_back(blocks.size(number));
   const int nodes = static_cast<int>(size.size());
   return {std::move(size), nodes, nodes == 0 ? std::vector<int>{0} : interface.graph.first, interface.graph.adjacent};
 }
@@ -36,27 +34,28 @@ elimination::Pattern InterfaceSystem::pattern(const partition::Interface& interf
 InterfaceSystem::InterfaceSystem(const partition::Interface& interface, elimination::Schedule schedule,
                                  MPI_Comm communicator)
     : communicator_(communicator), rows_(rows_of(interface.graph)), begin_(1, 0) {
-  for (const int size : schedule.size) begin_.push_back(begin_.back() + at(size));
-  failures_ = begin_.back();
+  for (const int size : schedule.size) begin_.push_back(*(begin_.end() - 1) + at(size));
+  failures_ = *(begin_.end() - 1);
   std::size_t values = failures_ + 1;
   for (int row = 0; row < rows_.vertices(); ++row)
     for (int i = rows_.first[at(row)]; i < rows_.first[at(row) + 1]; ++i) {
       places_.push_back(values);
-      values += at(size(row) * size(rows_.adjacent[at(i)]));
+      values += at(size(InterfaceNode(row)) * size(InterfaceNode(rows_.adjacent[at(i)])));
     }
   sum_.resize(values);
-  const auto where = [this](int row, int column) {
-    const auto first = rows_.adjacent.begin() + rows_.first[at(row)];
-    const auto last = rows_.adjacent.begin() + rows_.first[at(row) + 1];
-    if (!std::binary_search(first, last, column)) return elimination::BlockSource{};
+  const auto where = [this](int i, int j) {
+    const auto first = rows_.adjacent.begin() + rows_.first[at(i)];
+    const auto last = rows_.adjacent.begin() + rows_.first[at(i) + 1];
+    const InterfaceNode row(i), column(j);
+    if (!std::binary_search(first, last, j)) return elimination::BlockSource{};
     return elimination::block_source(static_cast<int>(place(row, column).begin), size(column), 0);
   };
   elimination_ = std::make_unique<elimination::Elimination>(std::move(schedule), where);
 }
 
-InterfaceSystem::Place InterfaceSystem::place(int row, int column) const {
+InterfaceSystem::Place InterfaceSystem::place(InterfaceNode row, InterfaceNode column) const {
   const auto first = rows_.adjacent.begin() + rows_.first[at(row)];
-  const auto found = std::lower_bound(first, rows_.adjacent.begin() + rows_.first[at(row) + 1], column);
+  const auto found = std::lower_bound(first, rows_.adjacent.begin() + rows_.first[at(row) + 1], column.value());
   return {places_[static_cast<std::size_t>(found - rows_.adjacent.begin())], size(row), size(column)};
 }
 

@@ -45,12 +45,12 @@ void MatrixBlocks::find_mixed() {
   PetscInt columns = 0;
   check(MatGetLocalSize(parts_[1].matrix, nullptr, &columns));
   for (PetscInt local = 0; local < columns; ++local) {
-    const int block = blocks_.block_of(static_cast<int>(names_[local]));
+    const SolverNumber block = blocks_.block_of(static_cast<int>(names_[local]));
     parts_[1].mixed.push_back({block, blocks_.size(block)});
   }
 }
 
-elimination::BlockSource MatrixBlocks::find(int row, int column) const {
+elimination::BlockSource MatrixBlocks::find(int row, SolverNumber column) const {
   const unsigned index = is_own(column) ? 0 : 1;
   const Part& part = parts_[index];
   if (part.matrix == nullptr) return {};
@@ -58,7 +58,7 @@ elimination::BlockSource MatrixBlocks::find(int row, int column) const {
   const PetscInt* const start = part.column + row_of_part[0];
   const PetscInt* const end = part.column + row_of_part[1];
   const auto name = [&](PetscInt local) { return index == 0 ? local + first_unknown_ : names_[local]; };
-  const PetscInt wanted = is_uniform() ? 3 * column : blocks_.begin(column);
+  const PetscInt wanted = blocks_.begin(column);
   const PetscInt* found =
       std::lower_bound(start, end, wanted, [&](PetscInt local, PetscInt w) { return name(local) < w; });
   if (found == end || name(*found) != wanted) return {};

@@ -8,7 +8,7 @@
 
 namespace cablenet::solve {
 
-/// This rank's rows of an AIJ matrix as blocks.  Columns are block numbers of the whole matrix.
+/// This rank's rows of an AIJ matrix as blocks.  Columns are the whole matrix's blocks.
 /// @pre the rows of a block have the same columns, and these come in whole blocks
 class MatrixBlocks {
 public:
@@ -19,10 +19,10 @@ public:
   MatrixBlocks& operator=(const MatrixBlocks&) = delete;
 
   int rows() const { return rows_; }
-  int first() const { return first_; }
+  SolverNumber first() const { return first_; }
   /// Of a local row, and of all rows: its first unknown on this rank.
-  int begin(int row) const { return is_uniform() ? 3 * row : begin_[static_cast<std::size_t>(row)]; }
-  bool is_own(int column) const { return column >= first_ && column < first_ + rows_; }
+  int begin(int row) const { return is_uniform() ? 3 * row : begin_[at(row)]; }
+  bool is_own(SolverNumber column) const { return column >= first_ && column < first_ + rows_; }
   /// visit(column, source) for each block of a local row; the source is in values()'s arrays.
   template <class Visit>
   void for_each(int row, Visit&& visit) const {
@@ -41,7 +41,7 @@ public:
           visit(p.mixed[at(p.column[start + i])].block, source(i));
     }
   }
-  elimination::BlockSource find(int row, int column) const;
+  elimination::BlockSource find(int row, SolverNumber column) const;
 
   /// The two arrays of values, until release().  @param exchanged  the third array that sources may refer to
   elimination::Arrays values(const double* exchanged) const;
@@ -49,7 +49,8 @@ public:
 
 private:
   struct Column {
-    int block, size;
+    SolverNumber block;
+    int size;
   };
   struct Part {
     Mat matrix = nullptr;
@@ -59,10 +60,9 @@ private:
     std::vector<Column> mixed;   ///< per column of the part, if not all sizes are 3
   };
 
-  static std::size_t at(PetscInt index) { return static_cast<std::size_t>(index); }
   bool is_uniform() const { return begin_.empty(); }
-  int uniform_column(unsigned part, PetscInt local) const {
-    return static_cast<int>(part == 0 ? first_ + local / 3 : names_[local] / 3);
+  SolverNumber uniform_column(unsigned part, PetscInt local) const {
+    return part == 0 ? first_ + static_cast<int>(local / 3) : SolverNumber(static_cast<int>(names_[local] / 3));
   }
   void find_mixed();
 
@@ -70,7 +70,7 @@ private:
   Part parts_[2];
   const PetscInt* names_ = nullptr;   ///< of the second part's columns in the whole matrix
   int rows_ = 0;
-  int first_ = 0;
+  SolverNumber first_;
   PetscInt first_unknown_ = 0;
   std::vector<int> begin_;   ///< if not all sizes are 3: per row, and one past the last
 };

@@ -12,8 +12,6 @@ namespace {
 
 using petsc::check;
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 }   // namespace
 
 PetscErrorCode NetworkPc::Impl::set_up(PC pc) {
@@ -36,15 +34,15 @@ PetscErrorCode NetworkPc::Impl::set_up(PC pc) {
 void NetworkPc::Impl::add_to_interface(const double* b) {
   interface_->clear(new_matrix_);
   if (is_singular_) interface_->add_failure();
-  const auto add_right_side = [this](int node, const double* values) {
+  const auto add_right_side = [this](InterfaceNode node, const double* values) {
     double* const to = interface_->right_side(node);
     for (int c = 0; c < interface_->size(node); ++c) to[c] += *values++;
     return values;
   };
   const double* from_interior = kept_values_.data();
-  for (const int node : kept_) from_interior = add_right_side(node, from_interior);
+  for (const InterfaceNode node : kept_) from_interior = add_right_side(node, from_interior);
   const double* own = b + interior_unknowns();
-  for (const int node : own_places_) own = add_right_side(node, own);
+  for (const InterfaceNode node : own_interface_) own = add_right_side(node, own);
   if (!new_matrix_) return;
   elimination::Arrays arrays = blocks_.values(nullptr);
   for (const auto& [from, to] : own_shares_) interface_->add(to, arrays[from.array] + from.offset, from.stride, false);
@@ -66,10 +64,11 @@ bool NetworkPc::Impl::solve(const double* b, double* x) {
     timer.emplace(petsc::Phase::solve);
     new_matrix_ = false;
     double* to_interior = kept_values_.data();
-    for (const int node : kept_)
+    for (const InterfaceNode node : kept_)
       to_interior = std::copy_n(interface_->solution(node), interface_->size(node), to_interior);
     double* own = x + interior_unknowns();
-    for (const int node : own_places_) own = std::copy_n(interface_->solution(node), interface_->size(node), own);
+    for (const InterfaceNode node : own_interface_)
+      own = std::copy_n(interface_->solution(node), interface_->size(node), own);
   }
   elimination_->backward(x, kept_values_.data());
   return true;
@@ -92,13 +91,13 @@ PetscErrorCode NetworkPc::Impl::apply(PC pc, Vec b, Vec x) {
 }
 
 PivotReport NetworkPc::Impl::pivots() const {
-  long found[2] = {pivots_.singular < 0 ? -1 : number(pivots_.singular), 0};
+  long found[2] = {pivots_.singular < 0 ? -1 : number(pivots_.singular).value(), 0};
   MPI_Allreduce(MPI_IN_PLACE, &found[0], 1, MPI_LONG, MPI_MAX, communicator_);
   const long inside = pivots_.negative;
   MPI_Allreduce(&inside, &found[1], 1, MPI_LONG, MPI_SUM, communicator_);
   const elimination::Pivots& shared = interface_->pivots();
-  if (found[0] < 0 && shared.singular >= 0) found[0] = numbers_[at(shared.singular)];
-  return {static_cast<int>(found[0]), found[1] + shared.negative};
+  if (found[0] < 0 && shared.singular >= 0) found[0] = numbers_[at(shared.singular)].value();
+  return {SolverNumber(static_cast<int>(found[0])), found[1] + shared.negative};
 }
 
 NetworkPc::NetworkPc(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

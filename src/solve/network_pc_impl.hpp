@@ -10,7 +10,7 @@
 
 namespace cablenet::solve {
 
-/// Local blocks: the interior nodes, then the interface nodes at them (`kept_`, by their places in the interface).
+/// Local blocks: the interior nodes, then the interface nodes at them (`kept_`).
 /// "Node" stands for a body as well.
 class NetworkPc::Impl {
 public:
@@ -26,32 +26,30 @@ private:
   elimination::Pattern pattern();
   void find_couplings();
   elimination::BlockSource source(int row, int column);
-  int owner(int number) const;
+  int owner(SolverNumber number) const;
   int ranks() const {
     int count = 1;
     MPI_Comm_size(communicator_, &count);
     return count;
   }
-  int interface_number(int kept) const {
-    return numbers_[static_cast<std::size_t>(kept_[static_cast<std::size_t>(kept)])];
-  }
-  int number(int local) const {
-    return local < interior_ ? blocks_.first() + local : interface_number(local - interior_);
+  /// Of a local block.
+  SolverNumber number(int local) const {
+    return local < interior_ ? blocks_.first() + local : numbers_[at(kept_[at(local - interior_)])];
   }
   void find_shares();
   void add_to_interface(const double* b);
   bool solve(const double* b, double* x);
 
-  std::size_t interior_unknowns() const { return static_cast<std::size_t>(blocks_.begin(interior_)); }
+  std::size_t interior_unknowns() const { return at(blocks_.begin(interior_)); }
 
   Mat matrix_;
   MPI_Comm communicator_;
   partition::Blocks sizes_;   ///< of all ranks, by solver number
   MatrixBlocks blocks_;
   int interior_;
-  std::vector<int> numbers_;             ///< of the interface nodes
-  std::unordered_map<int, int> place_;   ///< in numbers_
-  std::vector<int> kept_;
+  std::vector<SolverNumber> numbers_;   ///< of the interface nodes
+  std::unordered_map<SolverNumber, InterfaceNode> interface_node_;
+  std::vector<InterfaceNode> kept_;
   bool symmetric_ = false;
   bool new_matrix_ = false;
   CouplingExchange exchange_;
@@ -72,7 +70,7 @@ private:
     InterfaceSystem::Place to;
     bool transposed;
   };
-  std::vector<int> own_places_;   ///< of this rank's interface nodes in numbers_
+  std::vector<InterfaceNode> own_interface_;   ///< this rank's nodes
   std::vector<OwnShare> own_shares_;
   std::vector<LeftShare> left_shares_;
 };

@@ -12,8 +12,6 @@ namespace {
 
 using petsc::check;
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 int new_tag(Mat matrix) {
   PetscMPIInt tag = 0;
   check(PetscObjectGetNewTag(reinterpret_cast<PetscObject>(matrix), &tag));
@@ -30,41 +28,42 @@ NetworkPc::Impl::Impl(const partition::LocalNetwork& network, Mat matrix)
       interior_(network.interior),
       numbers_(network.interface.number),
       exchange_(communicator_, sizes_, new_tag(matrix)) {
-  for (std::size_t i = 0; i < numbers_.size(); ++i) place_[numbers_[i]] = static_cast<int>(i);
+  for (std::size_t i = 0; i < numbers_.size(); ++i) interface_node_[numbers_[i]] = InterfaceNode(static_cast<int>(i));
   symmetric_ = petsc::is_known_symmetric(matrix) && sizes_.uniform();
 }
 
 elimination::Pattern NetworkPc::Impl::pattern() {
-  std::set<int> touched;
-  const auto place = [this](int column) {
-    const auto found = place_.find(column);
-    if (found == place_.end()) throw petsc::Failure("two ranks' interiors are coupled in the matrix");
+  std::set<InterfaceNode> touched;
+  const auto interface_node = [this](SolverNumber column) {
+    const auto found = interface_node_.find(column);
+    if (found == interface_node_.end()) throw petsc::Failure("two ranks' interiors are coupled in the matrix");
     return found->second;
   };
-  const auto is_interior = [this](int column) {
+  const auto is_interior = [this](SolverNumber column) {
     return blocks_.is_own(column) && column - blocks_.first() < interior_;
   };
   for (int k = 0; k < interior_; ++k)
-    blocks_.for_each(k, [&](int column, const auto&) {
-      if (!is_interior(column)) touched.insert(place(column));
+    blocks_.for_each(k, [&](SolverNumber column, const auto&) {
+      if (!is_interior(column)) touched.insert(interface_node(column));
     });
   kept_.assign(touched.begin(), touched.end());
-  const auto local = [&](int column) {
+  const auto local = [&](SolverNumber column) {
     if (is_interior(column)) return column - blocks_.first();
-    return interior_ + static_cast<int>(std::lower_bound(kept_.begin(), kept_.end(), place(column)) - kept_.begin());
+    const auto found = std::lower_bound(kept_.begin(), kept_.end(), interface_node(column));
+    return interior_ + static_cast<int>(found - kept_.begin());
   };
   elimination::Pattern pattern{std::vector<int>(at(interior_) + kept_.size(), 3), interior_, {0}, {}};
   if (!sizes_.uniform())
     for (std::size_t k = 0; k < pattern.size.size(); ++k) pattern.size[k] = sizes_.size(number(static_cast<int>(k)));
   for (int k = 0; k < interior_; ++k) {
-    blocks_.for_each(k, [&](int column, const auto&) { pattern.adjacent.push_back(local(column)); });
+    blocks_.for_each(k, [&](SolverNumber column, const auto&) { pattern.adjacent.push_back(local(column)); });
     pattern.first.push_back(static_cast<int>(pattern.adjacent.size()));
   }
   return pattern;
 }
 
 /// The rank that has a node's row.
-int NetworkPc::Impl::owner(int number) const {
+int NetworkPc::Impl::owner(SolverNumber number) const {
   const PetscInt* ranges = nullptr;
   check(MatGetOwnershipRanges(matrix_, &ranges));
   return static_cast<int>(std::upper_bound(ranges, ranges + ranks() + 1, PetscInt{sizes_.begin(number)}) - ranges) - 1;
@@ -73,18 +72,18 @@ int NetworkPc::Impl::owner(int number) const {
 /// Blocks (interface node, interior node) stand in the interface node's row, perhaps on another rank.
 void NetworkPc::Impl::find_couplings() {
   for (int row = 0; row < blocks_.rows(); ++row)
-    blocks_.for_each(row, [&](int column, const elimination::BlockSource& source) {
+    blocks_.for_each(row, [&](SolverNumber column, const elimination::BlockSource& source) {
       if (blocks_.is_own(column)) return;
       if (row < interior_)
         exchange_.add_receive(owner(column), column, blocks_.first() + row);
-      else if (!place_.contains(column))
+      else if (!interface_node_.contains(column))
         exchange_.add_send(owner(column), blocks_.first() + row, column, source);
     });
   exchange_.settle();
 }
 
 elimination::BlockSource NetworkPc::Impl::source(int row, int column) {
-  const int i = number(row), j = number(column);
+  const SolverNumber i = number(row), j = number(column);
   if (blocks_.is_own(i)) return blocks_.find(i - blocks_.first(), j);
   elimination::BlockSource mirror = blocks_.find(j - blocks_.first(), i);
   if (mirror.absent) return mirror;
@@ -94,7 +93,7 @@ elimination::BlockSource NetworkPc::Impl::source(int row, int column) {
 }
 
 bool NetworkPc::Impl::plan(const partition::LocalNetwork& network, double most_per_node) {
-  const double nodes = std::max(1.0, static_cast<double>(sizes_.begin(sizes_.count())) / 3 / ranks());
+  const double nodes = std::max(1.0, static_cast<double>(sizes_.begin(SolverNumber(sizes_.count()))) / 3 / ranks());
   const bool listed = network.interface.graph.vertices() == static_cast<int>(numbers_.size());
   std::optional<elimination::Schedule> own, shared;
   if (listed) own = elimination::make_schedule(pattern(), symmetric_, most_per_node * nodes);
@@ -108,7 +107,7 @@ bool NetworkPc::Impl::plan(const partition::LocalNetwork& network, double most_p
   elimination_ =
       std::make_unique<elimination::Elimination>(std::move(*own), [this](int i, int j) { return source(i, j); });
   interface_ = std::make_unique<InterfaceSystem>(network.interface, std::move(*shared), communicator_);
-  for (const int node : kept_) kept_values_.resize(kept_values_.size() + at(interface_->size(node)));
+  for (const InterfaceNode node : kept_) kept_values_.resize(kept_values_.size() + at(interface_->size(node)));
   find_shares();
   return true;
 }
@@ -116,14 +115,14 @@ bool NetworkPc::Impl::plan(const partition::LocalNetwork& network, double most_p
 /// What this rank adds to the interface's matrix: the rows that it owns, and what its elimination leaves.
 void NetworkPc::Impl::find_shares() {
   for (int row = interior_; row < blocks_.rows(); ++row) {
-    own_places_.push_back(place_.at(blocks_.first() + row));
-    blocks_.for_each(row, [&](int column, const elimination::BlockSource& from) {
-      if (const auto found = place_.find(column); found != place_.end())
-        own_shares_.push_back({from, interface_->place(own_places_.back(), found->second)});
+    own_interface_.push_back(interface_node_.at(blocks_.first() + row));
+    blocks_.for_each(row, [&](SolverNumber column, const elimination::BlockSource& from) {
+      if (const auto found = interface_node_.find(column); found != interface_node_.end())
+        own_shares_.push_back({from, interface_->place(own_interface_.back(), found->second)});
     });
   }
   for (const auto& block : elimination_->schedule().kept) {
-    const int row = kept_[at(block.row - interior_)], column = kept_[at(block.column - interior_)];
+    const InterfaceNode row = kept_[at(block.row - interior_)], column = kept_[at(block.column - interior_)];
     const InterfaceSystem::Place place = interface_->place(row, column);
     const double* const update = elimination_->update(block);
     left_shares_.push_back({update, at(place.columns), place, false});

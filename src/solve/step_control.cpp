@@ -39,8 +39,8 @@ double largest_correction(const partition::LocalNetwork& network, const StepStar
   check(VecGetArrayRead(start.v, &v));
   check(VecGetArrayRead(start.a, &a));
   double largest = 0;
-  for (int node = 0; node < network.owned; ++node) {
-    const auto of_node = [begin = network.begin[static_cast<std::size_t>(node)]](const double* values) {
+  for (LocalNode node(0); network.is_owned(node); ++node) {
+    const auto of_node = [begin = network.begin[node].value()](const double* values) {
       return Eigen::Map<const Vector3>(values + begin);
     };
     const Vector3 correction = of_node(x1_values) - of_node(x) - dt * of_node(v) - dt * dt / 2 * of_node(a);

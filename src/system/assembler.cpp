@@ -15,8 +15,6 @@ namespace {
 
 using petsc::check;
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 Eigen::Map<Vector3> as_vector(double* values) { return Eigen::Map<Vector3>(values); }
 
 }   // namespace
@@ -61,12 +59,13 @@ void Assembler::fill_initial(Vec x, Vec v) const {
   for (const auto& [vector, values] : {std::pair{x, &network_.position}, std::pair{v, &network_.velocity}}) {
     double* array = nullptr;
     check(VecGetArrayWrite(vector, &array));
-    for (int i = 0; i < network_.owned; ++i) as_vector(array + network_.begin[at(i)]) = (*values)[at(i)];
+    for (LocalNode node(0); network_.is_owned(node); ++node)
+      as_vector(array + network_.begin[node].value()) = (*values)[node];
     for (int b = 0; b < network_.own_bodies; ++b) {
       const partition::LocalBody& body = network_.bodies[at(b)];
       const bodies::Vector4& rotation = vector == x ? body.start.y : body.start.dy;
       const int unknowns = bodies::rotation_unknowns(body.properties.rotation);
-      std::copy_n(rotation.data(), unknowns, array + network_.begin[at(body.node)] + 3);
+      std::copy_n(rotation.data(), unknowns, array + network_.begin[body.node].value() + 3);
     }
     check(VecRestoreArrayWrite(vector, &array));
   }
@@ -93,7 +92,7 @@ void Assembler::begin_step(double t, Vec x, Vec v) {
   access.begin_exchange();
   start_prescribed(t);
   for (std::size_t i = 0; i < prescribed_.size(); ++i) {
-    NodeMotion& here = outside_[at(network_.prescribed[i].node - network_.owned)];
+    NodeMotion& here = outside_[at(network_.prescribed[i].node.value() - network_.owned)];
     as_vector(here.x) = prescribed_[i].start.x;
     as_vector(here.v) = prescribed_[i].start.v;
   }

@@ -23,13 +23,14 @@ public:
   AttachedBlocks(const partition::LocalNetwork& network, BodySet& bodies, const TangentTarget& target)
       : network_(network), bodies_(bodies), target_(target) {}
 
-  void write(const std::array<int, 2>& node, const TangentMatrix::ElementSlots& slots, const AttachedTangent& t) const {
+  void write(const std::array<LocalNode, 2>& node, const TangentMatrix::ElementSlots& slots,
+             const AttachedTangent& t) const {
     for (std::size_t i = 0; i < 2; ++i)
       for (std::size_t j = 0; j < 2; ++j) write_block(node[i], node[j], i == j, slots[2 * i + j], t);
   }
 
   /// Adds to a block that is written.  @param slot  of the two nodes, absent for one that is carried
-  void add(int row, int column, TangentMatrix::Slot slot, const MotionSlopes& slopes,
+  void add(LocalNode row, LocalNode column, TangentMatrix::Slot slot, const MotionSlopes& slopes,
            const elements::Follow& follow) const {
     BodyBlock* const own = shared_block(row, column);
     if (slot.absent && own == nullptr) return;
@@ -43,15 +44,15 @@ public:
 
 private:
   /// nullptr for nodes that no body carries.
-  const CarriedTangent* carried(int node) const {
+  const CarriedTangent* carried(LocalNode node) const {
     return network_.is_carried(node) ? &bodies_.carried_tangent(node) : nullptr;
   }
-  BodyBlock* shared_block(int one, int other) const {
+  BodyBlock* shared_block(LocalNode one, LocalNode other) const {
     if (!network_.is_carried(one) || !network_.is_carried(other)) return nullptr;
     return network_.carried_at(one).body == network_.carried_at(other).body ? bodies_.block_at(one) : nullptr;
   }
 
-  void write_block(int row, int column, bool diagonal, const TangentMatrix::Slot& slot,
+  void write_block(LocalNode row, LocalNode column, bool diagonal, const TangentMatrix::Slot& slot,
                    const AttachedTangent& t) const {
     BodyBlock* const own = shared_block(row, column);
     if (slot.absent && own == nullptr) return;

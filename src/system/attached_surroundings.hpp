@@ -45,7 +45,7 @@ struct AttachedBedWork {
     const network::CableOnBed& cable = network.surroundings.on_bed[static_cast<std::size_t>(e.material)];
     const double smoothing = soft.softness * cable.smoothing;
     for (std::size_t k = 0; k < 2; ++k) {
-      const int node = e.node[k];
+      const LocalNode node = e.node[k];
       const Eigen::Map<const Vector3> x(nodes.x(node)), v(nodes.v(node));
       const environment::BedForce push =
           environment::bed_force<with_tangent>(soft.bed, 0.5 * cable.diameter * e.length, smoothing, dt, x, v);

@@ -5,7 +5,7 @@
 namespace cablenet::system {
 
 /// Forces go to carried nodes always, as their bodies' tangent needs them; to others where there is a residual.
-inline void add_attached_force(const partition::LocalNetwork& network, const AnyNodes& nodes, int node,
+inline void add_attached_force(const partition::LocalNetwork& network, const AnyNodes& nodes, LocalNode node,
                                const Vector3& force) {
   if (nodes.data.r == nullptr && !network.is_carried(node)) return;
   Eigen::Map<Vector3>(nodes.r(node)) += force;

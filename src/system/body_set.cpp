@@ -9,8 +9,6 @@
 namespace cablenet::system {
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 using Const3 = Eigen::Map<const Vector3>;
 using Map3 = Eigen::Map<Vector3>;
 
@@ -58,10 +56,10 @@ BodySet::BodySet(const partition::LocalNetwork& network, bool is_damped)
 }
 
 bodies::RotationState BodySet::rotation(std::size_t body, const NodeData& data) const {
-  const int node = network_.bodies[body].node;
-  if (node >= data.owned) return data.ghost_rotations[node - data.owned];
+  const LocalNode node = network_.bodies[body].node;
+  if (!network_.is_owned(node)) return data.ghost_rotations[node.value() - data.owned];
   bodies::RotationState state;
-  const int place = data.begin[node] + 3, n = unknowns(body);
+  const int place = data.begin[node.value()].value() + 3, n = unknowns(body);
   std::copy_n(data.x + place, n, state.y.data());
   std::copy_n(data.v + place, n, state.dy.data());
   if (data.a != nullptr) std::copy_n(data.a + place, n, state.ddy.data());
@@ -77,7 +75,7 @@ void BodySet::begin_step(const NodeData& data) {
     const Vector3 w = starts_[b].w;
     for (int k = body.first_carried; k < body.first_carried + body.carried; ++k) {
       const auto& [node, index, r] = network_.carried[at(k)];
-      NodeMotion& here = data.outside[node - data.owned];
+      NodeMotion& here = data.outside[node.value() - data.owned];
       Map3(here.x) = Const3(nodes.x(body.node)) + starts_[b].R * r;
       Map3(here.v) = Const3(nodes.v(body.node)) + starts_[b].R * w.cross(r);
     }
@@ -98,23 +96,23 @@ bool BodySet::place(const Stage& stage, bool conserving, const NodeData& data, c
     bodies::evaluate(body.properties, starts_[b], rule, state, gets_tangent ? seeds : nullptr, motion, forces_[b]);
     for (int k = body.first_carried; k < body.first_carried + body.carried; ++k) {
       const auto& [node, index, r] = network_.carried[at(k)];
-      NodeMotion& here = data.outside[node - data.owned];
+      NodeMotion& here = data.outside[node.value() - data.owned];
       Map3(here.x) = Const3(nodes.x(body.node)) + motion.place * r;
       Map3(here.v) = Const3(nodes.v(body.node)) + motion.velocity * r;
       if (data.a != nullptr) Map3(here.a) = Const3(nodes.a(body.node)) + motion.acceleration * r;
-      Map3(data.outside_r + 3 * std::ptrdiff_t{node - data.owned}).setZero();
+      Map3(data.outside_r + 3 * std::ptrdiff_t{node.value() - data.owned}).setZero();
       if (seeds != nullptr) differentiate(motion, forces_[b], r, is_damped_, tangents_[at(k)]);
     }
   }
   return outside_ < 0;
 }
 
-const CarriedTangent& BodySet::carried_tangent(int local_node) const {
-  return tangents_[at(local_node - network_.nodes) + network_.carried.size()];
+const CarriedTangent& BodySet::carried_tangent(LocalNode node) const {
+  return tangents_[tangents_.size() - at(network_.nodes - node.value())];
 }
 
-BodyBlock* BodySet::block_at(int local_node) {
-  const int body = network_.carried_at(local_node).body;
+BodyBlock* BodySet::block_at(LocalNode node) {
+  const int body = network_.carried_at(node).body;
   return body < network_.own_bodies ? &blocks_[at(body)] : nullptr;
 }
 
@@ -123,7 +121,7 @@ BodySet::Sums BodySet::sums(std::size_t b, const NodeData& data) const {
   Sums sums{Vector3::Zero(), bodies::Moments::Zero()};
   for (int k = body.first_carried; k < body.first_carried + body.carried; ++k) {
     const auto& [node, index, r] = network_.carried[at(k)];
-    const Const3 force(data.outside_r + 3 * std::ptrdiff_t{node - data.owned});
+    const Const3 force(data.outside_r + 3 * std::ptrdiff_t{node.value() - data.owned});
     sums.force += force;
     sums.moments += force * r.transpose();
   }
@@ -140,7 +138,7 @@ void BodySet::add_water(const environment::Fluid& fluid, double t, const NodeDat
     const bodies::PointMotion motion{Const3(nodes.x(body.node)), Const3(nodes.v(body.node)),
                                      Const3(nodes.a(body.node))};
     const bodies::BodyLoad load = bodies::body_load(*body.water, fluid, t, R, motion);
-    if (data.r != nullptr) Map3(data.r + data.begin[body.node]) -= load.force;
+    if (data.r != nullptr) Map3(data.r + data.begin[body.node.value()].value()) -= load.force;
     if (follow == nullptr) continue;
     blocks_[b].topLeftCorner<3, 3>() -= follow->x * load.by_x + follow->v * load.by_v + follow->a * load.by_a;
     for (int k = 0; follows_turning && k < unknowns(b); ++k)
@@ -175,13 +173,13 @@ double BodySet::largest_torque(std::size_t b, const NodeData& data) const {
   double torque = body.properties.torque.norm();
   for (int k = body.first_carried; k < body.first_carried + body.carried; ++k) {
     const auto& [node, index, r] = network_.carried[at(k)];
-    torque += Const3(data.outside_r + 3 * std::ptrdiff_t{node - data.owned}).norm() * r.norm();
+    torque += Const3(data.outside_r + 3 * std::ptrdiff_t{node.value() - data.owned}).norm() * r.norm();
   }
   return torque;
 }
 
 void BodySet::add_forces(std::size_t b, const Sums& sum, const Vector3& torque, const NodeData& data) const {
-  double* const r = data.r + data.begin[network_.bodies[b].node];
+  double* const r = data.r + data.begin[network_.bodies[b].node.value()].value();
   Map3(r) += sum.force;
   const bodies::Vector4 rows = forces_[b].own + forces_[b].turn.transpose() * torque;
   for (int k = 0; k < unknowns(b); ++k) r[3 + k] += rows(k);
@@ -214,7 +212,7 @@ double BodySet::end_step(const Stage& stage, bool conserving, double* x, double*
   double work = 0;
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const partition::LocalBody& body = network_.bodies[b];
-    const int place = network_.begin[at(body.node)] + 3, n = unknowns(b);
+    const int place = network_.begin[body.node].value() + 3, n = unknowns(b);
     bodies::RotationState state;
     std::copy_n(x + place, n, state.y.data());
     std::copy_n(v + place, n, state.dy.data());

@@ -48,9 +48,9 @@ public:
   /// Index into LocalNetwork::bodies; -1: none.
   int outside() const { return outside_; }
 
-  const CarriedTangent& carried_tangent(int local_node) const;
-  /// Where a part of the block of the body that carries `local_node` is added; nullptr if it is another rank's.
-  BodyBlock* block_at(int local_node);
+  const CarriedTangent& carried_tangent(LocalNode node) const;
+  /// Where a part of the block of the body that carries `node` is added; nullptr if it is another rank's.
+  BodyBlock* block_at(LocalNode node);
 
   /// Adds what water does at the bodies' centres of gravity.
   /// @param follow  with it, the derivatives go to the bodies' own blocks

@@ -45,9 +45,9 @@ void put_block(const TangentTarget& target, const TangentMatrix::Slot& slot, dou
 }
 
 /// a + beta v of a node; weight joins in as an acceleration.
-template <class Law, class Nodes>
+template <class Law, class Nodes, class Name>
 Vector3 inertial(const partition::LocalNetwork& network, const Nodes& nodes, const elements::CableMaterial& material,
-                 int node) {
+                 Name node) {
   Vector3 q = Eigen::Map<const Vector3>(nodes.a(node));
   if constexpr (Law::general) q += material.mass_damping * Eigen::Map<const Vector3>(nodes.v(node));
   q.z() += network.gravity;
@@ -65,7 +65,7 @@ struct ElementWork {
 
   [[gnu::flatten]] bool operator()(std::size_t i, const partition::LocalElement& e) const {
     const elements::CableMaterial& material = network.materials[static_cast<std::size_t>(e.material)];
-    const int n1 = Nodes::name(e, 0), n2 = Nodes::name(e, 1);
+    const auto n1 = Nodes::name(e, 0), n2 = Nodes::name(e, 1);
     ElementStage stage{material, e.length, difference(nodes.x(n2), nodes.x(n1)), Vector3::Zero(), target.shift_v};
     if constexpr (Law::general) stage.w = difference(nodes.v(n2), nodes.v(n1));
     Vector3 f;

@@ -10,11 +10,11 @@ namespace {
 
 using petsc::check;
 
-void copy_or_zero(double* to, const double* from, int place, int count) {
+void copy_or_zero(double* to, const double* from, Unknown place, int count) {
   if (from == nullptr)
     std::fill_n(to, count, 0.0);
   else
-    std::copy_n(from + place, count, to);
+    std::copy_n(from + place.value(), count, to);
 }
 
 }   // namespace
@@ -48,10 +48,10 @@ GhostExchange::GhostExchange(const partition::LocalNetwork& network, MPI_Comm co
   alone_ = ranks == 1;
   with_bodies_ = !network.blocks.uniform();
   if (alone_) return;
-  for (const int node : network.sent) places_.push_back(network.begin[static_cast<std::size_t>(node)]);
+  for (const LocalNode node : network.sent) places_.push_back(network.begin[node]);
   std::vector<PetscSFNode> places;
   for (std::size_t i = 0; i < network.ghost_owner.size(); ++i)
-    places.push_back({network.ghost_owner[i], network.ghost_place[i]});
+    places.push_back({network.ghost_owner[i], network.ghost_slot[i]});
   std::vector<PetscInt> leaves(places.size());
   std::iota(leaves.begin(), leaves.end(), 0);
   nodes_.set_up(communicator, places_.size(), leaves, places);
@@ -60,14 +60,14 @@ GhostExchange::GhostExchange(const partition::LocalNetwork& network, MPI_Comm co
 
 void GhostExchange::set_up_bodies(const partition::LocalNetwork& network, MPI_Comm communicator) {
   for (std::size_t i = 0; i < network.sent.size(); ++i)
-    if (const int more = network.blocks.size(network.first_number + network.sent[i]) - 3; more > 0)
+    if (const int more = network.blocks.size(network.number(network.sent[i])) - 3; more > 0)
       sent_bodies_.push_back({i, places_[i] + 3, more});
   std::vector<PetscInt> leaves;
   std::vector<PetscSFNode> places;
   for (std::size_t i = 0; i < network.ghost_owner.size(); ++i)
     if (network.blocks.size(network.ghost_number[i]) > 3) {
       leaves.push_back(static_cast<PetscInt>(i));
-      places.push_back({network.ghost_owner[i], network.ghost_place[i]});
+      places.push_back({network.ghost_owner[i], network.ghost_slot[i]});
     }
   rotations_.set_up(communicator, places_.size(), std::move(leaves), std::move(places));
 }

@@ -10,7 +10,6 @@
 namespace cablenet::system {
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 double square(double value) { return value * value; }
 
 }   // namespace
@@ -28,7 +27,7 @@ const LocalState& Assembler::observe(double t, Vec x, Vec v, Vec a) {
   access.finish_exchange();
   bodies_->place({t, 0, 0}, false, access.data, nullptr);
   const AnyNodes nodes{access.data};
-  for (int i = 0; i < network_.nodes; ++i) {
+  for (LocalNode i(0); i.value() < network_.nodes; ++i) {
     LocalState::at(state_.x, i) = Eigen::Map<const Vector3>(nodes.x(i));
     LocalState::at(state_.v, i) = Eigen::Map<const Vector3>(nodes.v(i));
     LocalState::at(state_.a, i) = Eigen::Map<const Vector3>(nodes.a(i));
@@ -77,7 +76,7 @@ Energies Assembler::energies() const {
     const auto x = LocalState::at(state_.x, node);
     sum.kinetic += 0.5 * mass * LocalState::at(state_.v, node).squaredNorm();
     sum.gravity += mass * network_.gravity * x.z();
-    sum.work += force.dot(x - network_.position[at(node)]);
+    sum.work += force.dot(x - network_.position[node]);
   }
   return sum;
 }
@@ -87,9 +86,9 @@ ForceScales Assembler::force_scales() {
   for_each_element(network_, {0, network_.own_elements}, [&](std::size_t, const partition::LocalElement& e) {
     const elements::CableMaterial& material = network_.materials[at(e.material)];
     const double m = material.mass_per_length * e.length;
-    const Vector3 &v1 = network_.velocity[at(e.node[0])], &v2 = network_.velocity[at(e.node[1])];
+    const Vector3 &v1 = network_.velocity[e.node[0]], &v2 = network_.velocity[e.node[1]];
     const double speed = std::max(v1.norm(), v2.norm());
-    const Vector3 d = network_.position[at(e.node[1])] - network_.position[at(e.node[0])];
+    const Vector3 d = network_.position[e.node[1]] - network_.position[e.node[0]];
     const double tension = elements::cable_tension(material, e.length, {d, v2 - v1});
     load += square(tension) + square(m * network_.gravity) + square(m * speed * speed / e.length);
     stiffness += square(2 * material.axial_stiffness / e.length);

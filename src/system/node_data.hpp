@@ -10,7 +10,7 @@ namespace cablenet::system {
 /// Where elements find their nodes' motion and leave their forces.
 struct NodeData {
   int owned;
-  const int* begin;   ///< per owned node: its first unknown in the solver's vectors
+  const Unknown* begin;   ///< per owned node: its first unknown in the solver's vectors
   const double* x;
   const double* v;
   const double* a;
@@ -28,24 +28,31 @@ inline Vector3 difference(const double* to, const double* from) {
 struct InnerNodes {
   const NodeData& data;
   /// What the functions below know an element's node by.
-  static int name(const partition::LocalElement& e, std::size_t end) { return e.place[end]; }
-  const double* x(int place) const { return data.x + place; }
-  const double* v(int place) const { return data.v + place; }
-  const double* a(int place) const { return data.a + place; }
-  double* r(int place) const { return data.r + place; }
+  static Unknown name(const partition::LocalElement& e, std::size_t end) { return e.unknown[end]; }
+  const double* x(Unknown unknown) const { return data.x + unknown.value(); }
+  const double* v(Unknown unknown) const { return data.v + unknown.value(); }
+  const double* a(Unknown unknown) const { return data.a + unknown.value(); }
+  double* r(Unknown unknown) const { return data.r + unknown.value(); }
 };
 
 /// For any element.
 struct AnyNodes {
   const NodeData& data;
-  static int name(const partition::LocalElement& e, std::size_t end) { return e.node[end]; }
-  bool is_owned(int node) const { return node < data.owned; }
-  const NodeMotion& outside(int node) const { return data.outside[node - data.owned]; }
-  const double* x(int node) const { return is_owned(node) ? data.x + data.begin[node] : outside(node).x; }
-  const double* v(int node) const { return is_owned(node) ? data.v + data.begin[node] : outside(node).v; }
-  const double* a(int node) const { return is_owned(node) ? data.a + data.begin[node] : outside(node).a; }
-  double* r(int node) const {
-    return is_owned(node) ? data.r + data.begin[node] : data.outside_r + 3 * std::ptrdiff_t{node - data.owned};
+  static LocalNode name(const partition::LocalElement& e, std::size_t end) { return e.node[end]; }
+  bool is_owned(LocalNode node) const { return node.value() < data.owned; }
+  const NodeMotion& outside(LocalNode node) const { return data.outside[node.value() - data.owned]; }
+  const double* x(LocalNode node) const {
+    return is_owned(node) ? data.x + data.begin[node.value()].value() : outside(node).x;
+  }
+  const double* v(LocalNode node) const {
+    return is_owned(node) ? data.v + data.begin[node.value()].value() : outside(node).v;
+  }
+  const double* a(LocalNode node) const {
+    return is_owned(node) ? data.a + data.begin[node.value()].value() : outside(node).a;
+  }
+  double* r(LocalNode node) const {
+    return is_owned(node) ? data.r + data.begin[node.value()].value()
+                          : data.outside_r + 3 * std::ptrdiff_t{node.value() - data.owned};
   }
 };
 

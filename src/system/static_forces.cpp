@@ -12,8 +12,6 @@ namespace {
 
 using petsc::check;
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 double square(double value) { return value * value; }
 
 Eigen::Map<Vector3> as_vector(double* values) { return Eigen::Map<Vector3>(values); }
@@ -37,7 +35,7 @@ void fill_velocity(const partition::LocalNetwork& network, const Vector3& veloci
   double* values = nullptr;
   check(VecSet(v, 0));
   check(VecGetArray(v, &values));
-  for (int i = 0; i < network.owned; ++i) as_vector(values + network.begin[at(i)]) = velocity;
+  for (LocalNode node(0); network.is_owned(node); ++node) as_vector(values + network.begin[node].value()) = velocity;
   check(VecRestoreArray(v, &values));
 }
 
@@ -114,7 +112,8 @@ bool StaticForces::is_in_flow() const {
 void StaticForces::place_prescribed() {
   assembler_.evaluated_ = {};
   for (std::size_t i = 0; i < assembler_.prescribed_.size(); ++i) {
-    NodeMotion& here = assembler_.outside_[at(assembler_.network_.prescribed[i].node - assembler_.network_.owned)];
+    NodeMotion& here =
+        assembler_.outside_[at(assembler_.network_.prescribed[i].node.value() - assembler_.network_.owned)];
     as_vector(here.x) = assembler_.prescribed_[i].start.x;
     as_vector(here.v) = velocity_;
     as_vector(here.a).setZero();
@@ -192,10 +191,9 @@ TensionRange StaticForces::tensions(Vec x) {
 void StaticForces::start_from(Vec x) {
   const LocalState state = assembler_.observe(t_, x, v_, resting_);
   partition::LocalNetwork& network = assembler_.network_;
-  for (int i = 0; i < network.nodes; ++i) {
-    network.position[at(i)] = LocalState::at(state.x, i);
-    network.velocity[at(i)] =
-        network.is_free(i) || network.is_carried(i) ? velocity_ : Vector3(LocalState::at(state.v, i));
+  for (LocalNode i(0); i.value() < network.nodes; ++i) {
+    network.position[i] = LocalState::at(state.x, i);
+    network.velocity[i] = network.is_free(i) || network.is_carried(i) ? velocity_ : Vector3(LocalState::at(state.v, i));
   }
   for (std::size_t b = 0; b < network.bodies.size(); ++b) {
     partition::LocalBody& body = network.bodies[b];

@@ -8,8 +8,6 @@ namespace {
 
 using petsc::check;
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 Eigen::Map<Vector3> as_vector(double* values) { return Eigen::Map<Vector3>(values); }
 
 /// cos(pitch) one degree from the vertical: before a step leaves the domain of Euler angles.
@@ -32,7 +30,7 @@ void Assembler::set_prescribed(const Stage& s) {
     if (new_end) step.end = motion.at(s.t + s.dt);
     const auto& [x0, v0, a0] = step.start;
     const auto& [x1, v1, a1] = step.end;
-    NodeMotion& here = outside_[at(node - network_.owned)];
+    NodeMotion& here = outside_[at(node.value() - network_.owned)];
     as_vector(here.x) = x0 + s.alpha_f * (x1 - x0);
     as_vector(here.v) = v0 + s.alpha_f * (v1 - v0);
     // The free nodes' a_a stands for the stage's time t + alpha_f dt.  With the mid-point rule it is (v1 - v0)/dt:
@@ -48,7 +46,8 @@ void Assembler::add_work(const Stage& s) {
   const double slope = previous_stage_t_ < stage_t && lag != 0 ? lag / (stage_t - previous_stage_t_) : 0;
   for (std::size_t i = 0; i < prescribed_.size(); ++i) {
     NodeStep& step = prescribed_[i];
-    const Vector3 reaction = as_vector(outside_r_.data() + 3 * at(network_.prescribed[i].node - network_.owned));
+    const Vector3 reaction =
+        as_vector(outside_r_.data() + 3 * at(network_.prescribed[i].node.value() - network_.owned));
     const bool first = step.previous_reaction.isZero(0);
     const Vector3 middle = first ? reaction : Vector3(reaction + slope * (reaction - step.previous_reaction));
     work_ += middle.dot(step.end.x - step.start.x);
@@ -65,7 +64,7 @@ int Assembler::nearly_singular_body(Vec x) const {
   for (int b = 0; b < network_.own_bodies; ++b) {
     const partition::LocalBody& body = network_.bodies[at(b)];
     bodies::Vector4 y = bodies::Vector4::Zero();
-    std::copy_n(values + network_.begin[at(body.node)] + 3, bodies::rotation_unknowns(body.properties.rotation),
+    std::copy_n(values + network_.begin[body.node].value() + 3, bodies::rotation_unknowns(body.properties.rotation),
                 y.data());
     if (bodies::distance_from_singular(body.properties.rotation, y) < warning_cosine) found = body.body;
   }

@@ -16,7 +16,7 @@ void visit_water(const environment::Fluid& fluid, double t, double gravity, Visi
   visit(elements::UniformWater{velocity, gravity});
 }
 
-bodies::PointMotion point_motion(const AnyNodes& nodes, int node) {
+bodies::PointMotion point_motion(const AnyNodes& nodes, LocalNode node) {
   using Const3 = Eigen::Map<const Vector3>;
   return {Const3(nodes.x(node)), Const3(nodes.v(node)), Const3(nodes.a(node))};
 }

@@ -5,8 +5,8 @@
 /// What water and bed do to an element in the loop over elements.  All add to what the force laws have left.
 namespace cablenet::system {
 
-template <class Nodes>
-elements::EndMotion end_motion(const Nodes& nodes, int n1, int n2) {
+template <class Nodes, class Name>
+elements::EndMotion end_motion(const Nodes& nodes, Name n1, Name n2) {
   using Const3 = Eigen::Map<const Vector3>;
   return {{Const3(nodes.x(n1)), Const3(nodes.x(n2))},
           {Const3(nodes.v(n1)), Const3(nodes.v(n2))},
@@ -39,7 +39,7 @@ struct WaterWork {
 
   [[gnu::flatten]] bool operator()(std::size_t i, const partition::LocalElement& e) const {
     const elements::CableInWater& cable = network.surroundings.in_water[static_cast<std::size_t>(e.material)];
-    const int n1 = Nodes::name(e, 0), n2 = Nodes::name(e, 1);
+    const auto n1 = Nodes::name(e, 0), n2 = Nodes::name(e, 1);
     const elements::EndLoads loads =
         elements::water_loads<with_tangent>(cable, e.length, end_motion(nodes, n1, n2), water, target.follow);
     if (target.with_residual) {
@@ -76,7 +76,7 @@ struct BedWork {
     const network::CableOnBed& cable = network.surroundings.on_bed[static_cast<std::size_t>(e.material)];
     const double smoothing = soft.softness * cable.smoothing;
     for (std::size_t k = 0; k < 2; ++k) {
-      const int node = Nodes::name(e, k);
+      const auto node = Nodes::name(e, k);
       const Eigen::Map<const Vector3> x(nodes.x(node)), v(nodes.v(node));
       if (x.z() - 0.5 * dt * std::abs(v.z()) > soft.bed.level + smoothing) continue;
       const environment::BedForce push =

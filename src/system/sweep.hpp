@@ -17,7 +17,7 @@ void Assembler::record_starts(const Law&, const Access& access) {
     auto& starts = starts_->of<Law>(network_.elements.size());
     const auto record = [&](Range range, auto nodes) {
       for_each_element(network_, range, [&](std::size_t i, const partition::LocalElement& e) {
-        const int n1 = nodes.name(e, 0), n2 = nodes.name(e, 1);
+        const auto n1 = nodes.name(e, 0), n2 = nodes.name(e, 1);
         Vector3 w = Vector3::Zero();
         if constexpr (Law::general) w = difference(nodes.v(n2), nodes.v(n1));
         starts[i] = Law::start(network_.materials[static_cast<std::size_t>(e.material)], e.length,

@@ -16,18 +16,17 @@ namespace {
 
 using petsc::check;
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 /// Block columns of each owned node's row, ascending, in compressed rows.
 struct BlockRows {
   std::vector<int> first;
-  std::vector<int> column;
+  std::vector<SolverNumber> column;
   /// Where sizes differ: per row and one past, its first value; per block, its first column in the row's values.
   std::vector<int> values, offset;
 
   /// The block's index among all.
-  int block(int row, int wanted) const {
-    const auto found = std::lower_bound(column.begin() + first[at(row)], column.begin() + first[at(row) + 1], wanted);
+  int block(LocalNode node, SolverNumber wanted) const {
+    const std::size_t row = at(node);
+    const auto found = std::lower_bound(column.begin() + first[row], column.begin() + first[row + 1], wanted);
     return static_cast<int>(found - column.begin());
   }
   int row_values(int row) const { return values.empty() ? 9 * first[at(row)] : values[at(row)]; }
@@ -37,10 +36,10 @@ struct BlockRows {
   int width(int row, int size) const {
     return values.empty() ? 3 * (first[at(row) + 1] - first[at(row)]) : (values[at(row) + 1] - values[at(row)]) / size;
   }
-  void place(const partition::Blocks& blocks, int first_number);
+  void place(const partition::Blocks& blocks, SolverNumber first_number);
 };
 
-void BlockRows::place(const partition::Blocks& blocks, int first_number) {
+void BlockRows::place(const partition::Blocks& blocks, SolverNumber first_number) {
   if (blocks.uniform()) return;
   values.push_back(0);
   for (int row = 0; row + 1 < static_cast<int>(first.size()); ++row) {
@@ -58,11 +57,11 @@ template <class Each>
 BlockRows block_rows(int rows, const Each& each) {
   BlockRows result;
   std::vector<int> next(at(rows) + 1, 0);
-  each([&](int row, int) { ++next[at(row) + 1]; });
+  each([&](LocalNode row, SolverNumber) { ++next[at(row) + 1]; });
   std::partial_sum(next.begin(), next.end(), next.begin());
   const std::vector<int> first = next;
   result.column.resize(at(next.back()));
-  each([&](int row, int column) { result.column[at(next[at(row)]++)] = column; });
+  each([&](LocalNode row, SolverNumber column) { result.column[at(next[at(row)]++)] = column; });
   result.first.push_back(0);
   auto to = result.column.begin();
   for (int row = 0; row < rows; ++row) {
@@ -106,14 +105,14 @@ public:
     written_[1].assign(other_.column.size(), false);
   }
 
-  Slot slot(int row, int column) {
-    if (row >= network_.owned || !network_.is_free(column)) return {};
-    const bool other = column >= network_.owned;
+  Slot slot(LocalNode row, LocalNode column) {
+    if (!network_.is_owned(row) || !network_.is_free(column)) return {};
+    const bool other = !network_.is_owned(column);
     const BlockRows& rows = other ? other_ : own_;
     const int block = rows.block(row, network_.number(column));
     Slot slot;
-    slot.offset = rows.row_values(row) + rows.column_values(row, block);
-    slot.stride = static_cast<unsigned>(rows.width(row, size(network_.first_number + row))) & 0x1fffffff;
+    slot.offset = rows.row_values(row.value()) + rows.column_values(row.value(), block);
+    slot.stride = static_cast<unsigned>(rows.width(row.value(), size(network_.number(row)))) & 0x1fffffff;
     slot.other = other;
     slot.absent = 0;
     slot.add = written_[slot.other][at(block)];
@@ -121,8 +120,8 @@ public:
     return slot;
   }
 
-  ElementSlots slots(const std::array<int, 2>& node) {
-    const int a = network_.anchor(node[0]), b = network_.anchor(node[1]);
+  ElementSlots slots(const std::array<LocalNode, 2>& node) {
+    const LocalNode a = network_.anchor(node[0]), b = network_.anchor(node[1]);
     const Slot none;
     return {network_.is_carried(node[0]) ? none : slot(a, a), a == b ? none : slot(a, b), a == b ? none : slot(b, a),
             network_.is_carried(node[1]) ? none : slot(b, b)};
@@ -137,7 +136,7 @@ public:
         const std::size_t begin = columns.size();
         for (const BlockRows* rows : {&own_, &other_})
           for (int i = rows->first[at(row)]; i < rows->first[at(row) + 1]; ++i) {
-            const int column = rows->column[at(i)];
+            const SolverNumber column = rows->column[at(i)];
             for (int c = 0; c < size(column); ++c) columns.push_back(network_.blocks.begin(column) + c);
           }
         std::sort(columns.begin() + static_cast<std::ptrdiff_t>(begin), columns.end());
@@ -148,19 +147,19 @@ public:
   }
 
 private:
-  int size(int number) const { return network_.blocks.size(number); }
+  int size(SolverNumber number) const { return network_.blocks.size(number); }
 
   /// Owned nodes and their free neighbours, themselves among them, of this rank or of others; by solver number.
   template <class Visit>
   void for_each_pair(bool own, const Visit& visit) const {
     if (own)
-      for (int node = 0; node < network_.owned; ++node) visit(node, network_.number(node));
-    const auto join = [&](int row, int column) {
-      if (row < network_.owned && network_.is_free(column) && (column < network_.owned) == own)
+      for (LocalNode node(0); network_.is_owned(node); ++node) visit(node, network_.number(node));
+    const auto join = [&](LocalNode row, LocalNode column) {
+      if (network_.is_owned(row) && network_.is_free(column) && network_.is_owned(column) == own)
         visit(row, network_.number(column));
     };
-    const auto join_ends = [&](const std::array<int, 2>& node) {
-      const int a = network_.anchor(node[0]), b = network_.anchor(node[1]);
+    const auto join_ends = [&](const std::array<LocalNode, 2>& node) {
+      const LocalNode a = network_.anchor(node[0]), b = network_.anchor(node[1]);
       join(a, b);
       join(b, a);
     };

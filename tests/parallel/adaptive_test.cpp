@@ -197,7 +197,8 @@ TEST(StepControl, TheEstimateIsTheLocalError) {
   petsc::check(TSGetAdapt(stepper, &adapt));
   partition::LocalNetwork one_node;
   one_node.owned = 1;
-  one_node.begin = {0, 3};
+  one_node.begin.push_back(Unknown(0));
+  one_node.begin.push_back(Unknown(3));
   for (const double radius : {1.0, 0.8, 0.3, 0.0}) {
     Oscillator oscillator(radius);
     solve::StepControl control(adapt, 1, 1, 1, 0);
@@ -240,7 +241,7 @@ Fall fall(Scheme scheme, double radius, std::optional<double> tolerance) {
   const Trajectory run(network, time, 0.1, PETSC_COMM_WORLD);
   // examples/free_fall/reference.csv
   const Vector3 exact(-1.56354970013115, 0, -0.616180665274549);
-  return {run.counts().steps + run.counts().rejected, (run.x[1] - exact).norm()};
+  return {run.counts().steps + run.counts().rejected, (run.x[SceneNode(1)] - exact).norm()};
 }
 
 void expect_fewer_steps(Scheme scheme, double radius, double tolerance) {

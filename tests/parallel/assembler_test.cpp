@@ -49,7 +49,7 @@ struct State {
     v = disturbed(v0, 1, 3000);
     a = disturbed(zero, 10, 4000);
     direction = disturbed(zero, 1, 5000);
-    for (const auto& held : network.prescribed) direction[at(held.node)].setZero();
+    for (const auto& held : network.prescribed) direction[held.node].setZero();
   }
   system::Stage stage;
   double shift_v, shift_a;
@@ -58,7 +58,7 @@ struct State {
 
 Field moved(const Field& field, double step, const Field& direction) {
   Field result = field;
-  for (std::size_t i = 0; i < field.size(); ++i) result[i] += step * direction[i];
+  for (SceneNode node(0); node.value() < field.size(); ++node) result[node] += step * direction[node];
   return result;
 }
 
@@ -159,7 +159,7 @@ TEST_P(Assembler, AllNumbersOfRanksAgree) {
 TEST_P(Assembler, CoincidentNodesAreNamed) {
   const int element = 5;
   const State usual = state_;
-  const std::size_t from = at(network_.elements[at(element)].node[0]), to = at(network_.elements[at(element)].node[1]);
+  const auto [from, to] = network_.elements[at(element)].node;
   const double left = GetParam().scheme == Scheme::plain ? 0 : 1 - state_.stage.alpha_f;
   state_.x0[from] = state_.x[from] = Vector3::Zero();
   state_.x0[to] = Vector3(1, 0, 0);
@@ -202,15 +202,15 @@ TEST(AssemblerPlain, TheResidualIsTheElementsSum) {
   Field found = residual(system, s, 0), x = s.x, v = s.v, a = s.a;
   for (const auto& [node, motion] : network.prescribed) {
     const auto from = motion.at(s.stage.t), to = motion.at(s.stage.t + s.stage.dt);
-    x[at(node)] = from.x + s.stage.alpha_f * (to.x - from.x);
-    v[at(node)] = from.v + s.stage.alpha_f * (to.v - from.v);
+    x[node] = from.x + s.stage.alpha_f * (to.x - from.x);
+    v[node] = from.v + s.stage.alpha_f * (to.v - from.v);
     // The free nodes' accelerations lag so that theirs, too, is that of the time of the forces.
-    a[at(node)] = from.a + s.stage.alpha_f * (to.a - from.a);
+    a[node] = from.a + s.stage.alpha_f * (to.a - from.a);
   }
   Field expected(network.position.size(), Vector3::Zero());
   for (const auto& e : network.elements) {
     const auto& material = network.materials[at(e.material)];
-    const std::size_t i = at(e.node[0]), j = at(e.node[1]);
+    const SceneNode i = e.node[0], j = e.node[1];
     const double beta = material.mass_damping;
     const auto ends = elements::cable_end_forces(material, e.length, network.gravity, {x[j] - x[i], v[j] - v[i]},
                                                  {a[i] + beta * v[i], a[j] + beta * v[j]});
@@ -218,8 +218,8 @@ TEST(AssemblerPlain, TheResidualIsTheElementsSum) {
     expected[j] += ends.on2;
   }
   for (const auto& load : network.loads)
-    expected[at(load.node)] += load.mass * (a[at(load.node)] + Vector3(0, 0, network.gravity)) - load.force;
-  for (const auto& held : network.prescribed) expected[at(held.node)].setZero();
+    expected[load.node] += load.mass * (a[load.node] + Vector3(0, 0, network.gravity)) - load.force;
+  for (const auto& held : network.prescribed) expected[held.node].setZero();
   EXPECT_LE(size(difference(found, expected)), 1e-12 * size(expected));
 }
 

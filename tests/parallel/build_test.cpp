@@ -19,9 +19,9 @@ const Span& span_of(const Network& network, const std::string& name) {
 }
 
 /// A cable's nodes from end to end.
-std::vector<int> nodes_of(const Network& network, const std::string& name) {
+std::vector<SceneNode> nodes_of(const Network& network, const std::string& name) {
   const Span& span = span_of(network, name);
-  std::vector<int> nodes{network.elements[at(span.first_element)].node[0]};
+  std::vector<SceneNode> nodes{network.elements[at(span.first_element)].node[0]};
   for (int e = 0; e < span.elements; ++e) {
     const auto& element = network.elements[at(span.first_element + e)];
     EXPECT_EQ(element.node[0], nodes.back()) << name << " is torn at element " << e;
@@ -39,8 +39,8 @@ std::vector<double> arcs_of(const Network& network, const std::string& name) {
   return arcs;
 }
 
-double arc_of_node(const Network& network, const std::string& name, int node) {
-  const std::vector<int> nodes = nodes_of(network, name);
+double arc_of_node(const Network& network, const std::string& name, SceneNode node) {
+  const std::vector<SceneNode> nodes = nodes_of(network, name);
   return arcs_of(network, name)[at(static_cast<int>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin()))];
 }
 
@@ -95,9 +95,9 @@ TEST(Build, ATapOffTheGridSharesTheElementsOutAnew) {
   three: {type: rope, from: {cable: trunk, at: 9.9}, to: r, elements: 2}
 )");
   for (const auto& [name, tap] : {std::pair{"one", 3.2}, {"two", 3.2}, {"three", 9.9}}) {
-    const int node = nodes_of(network, name).front();
+    const SceneNode node = nodes_of(network, name).front();
     EXPECT_NEAR(arc_of_node(network, "trunk", node), tap, 1e-12) << name;
-    EXPECT_LE((network.position[at(node)] - Vector3(tap, 0, 0)).norm(), 1e-12);
+    EXPECT_LE((network.position[node] - Vector3(tap, 0, 0)).norm(), 1e-12);
   }
   EXPECT_EQ(nodes_of(network, "trunk").size(), 11u);
   const std::vector<double> arcs = arcs_of(network, "trunk");
@@ -150,7 +150,7 @@ cables:
   trunk: {type: rope, from: a, to: b, elements: 10, length: 10}
 )");
   const auto place = [&](const std::string& name, std::size_t k) {
-    return network.position[at(nodes_of(network, name)[k])];
+    return network.position[nodes_of(network, name)[k]];
   };
   EXPECT_LE((place("branch", 0) - Vector3(4, 0, 0)).norm(), 1e-12);
   EXPECT_LE((place("twig", 0) - Vector3(4, 0, -1)).norm(), 1e-12);
@@ -168,24 +168,24 @@ cables: {hanger: {type: slack, from: {net: panel, node: [1, 3]}, to: end, elemen
 nets:
   panel: {type: rope, corners: [[0, 1, 0], [8, 1, 0], [8, 1, -6], [0, 1, -6]], meshes: [4, 3], slack: 1.1, fixed: [top, right]}
 )");
-  EXPECT_EQ(network.position.size(), 1u + 20u + 2u);
+  EXPECT_EQ(network.position.size(), 1 + 20 + 2);
   EXPECT_EQ(network.elements.size(), 3u + 4u * 4 + 5u * 3);
   EXPECT_EQ(network.spans[0].name, "hanger");
   EXPECT_EQ(network.spans[1].elements, 31);
   EXPECT_EQ(network.spans[1].first_element, 3);
-  const std::vector<bool> held = held_nodes(network);
+  const Table<SceneNode, bool> held = held_nodes(network);
   int on_edges = 0;
-  for (std::size_t i = 1; i < 21; ++i) {
-    const Vector3& x = network.position[i];
-    EXPECT_EQ(held[i], x.z() > -1e-9 || x.x() > 8 - 1e-9) << "node " << i;
-    on_edges += held[i] ? 1 : 0;
+  for (SceneNode node(1); node.value() < 21; ++node) {
+    const Vector3& x = network.position[node];
+    EXPECT_EQ(held[node], x.z() > -1e-9 || x.x() > 8 - 1e-9) << "node " << node.value();
+    on_edges += held[node] ? 1 : 0;
   }
   EXPECT_EQ(on_edges, 5 + 3);
   EXPECT_EQ(network.prescribed.size(), 8u);
-  EXPECT_LE((network.position[at(nodes_of(network, "hanger").front())] - Vector3(2, 1, -6)).norm(), 1e-12);
+  EXPECT_LE((network.position[nodes_of(network, "hanger").front()] - Vector3(2, 1, -6)).norm(), 1e-12);
   for (std::size_t e = 3; e < network.elements.size(); ++e) {
     const auto& [a, b] = network.elements[e].node;
-    EXPECT_NEAR((network.position[at(b)] - network.position[at(a)]).norm(), 2, 1e-12);
+    EXPECT_NEAR((network.position[b] - network.position[a]).norm(), 2, 1e-12);
     EXPECT_NEAR(network.elements[e].length, 2.2, 1e-12);
   }
 }
@@ -200,16 +200,16 @@ cables:
   ab: {type: rope, from: a, to: b, elements: 4}
 )";
   const Network linear = network_of(points + "  bc: {type: rope, from: b, to: c, elements: 2}\n");
-  const std::vector<int> nodes = nodes_of(linear, "ab");
+  const std::vector<SceneNode> nodes = nodes_of(linear, "ab");
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const double s = 0.25 * static_cast<double>(k);
-    EXPECT_LE((linear.velocity[at(nodes[k])] - Vector3(2 - 2 * s, 4 * s, 0)).norm(), 1e-12);
+    EXPECT_LE((linear.velocity[nodes[k]] - Vector3(2 - 2 * s, 4 * s, 0)).norm(), 1e-12);
   }
-  EXPECT_LE((linear.velocity[at(nodes_of(linear, "bc")[1])] - Vector3(0, 2, 0)).norm(), 1e-12);
+  EXPECT_LE((linear.velocity[nodes_of(linear, "bc")[1]] - Vector3(0, 2, 0)).norm(), 1e-12);
   const Network given = network_of(
       points + "  bc: {type: rope, from: b, to: c, elements: 2, node_velocity: [[0, 4, 0], [7, 8, 9], [1, 2, 3]]}\n");
-  EXPECT_EQ(given.velocity[at(nodes_of(given, "bc")[1])], Vector3(7, 8, 9));
-  EXPECT_EQ(given.velocity[at(given.point_node[2])], Vector3(1, 2, 3));
+  EXPECT_EQ(given.velocity[nodes_of(given, "bc")[1]], Vector3(7, 8, 9));
+  EXPECT_EQ(given.velocity[given.point_node[2]], Vector3(1, 2, 3));
   expect_refusal(
       points + "  bc: {type: rope, from: b, to: c, elements: 2, node_velocity: [[0, 5, 0], [7, 8, 9], [1, 2, 3]]}\n",
       {"test.yaml:", "cables.bc", "node_velocity", "point b"});
@@ -226,7 +226,7 @@ cables:
       "  bc: {type: rope, from: b, to: c, elements: 2, node_velocity: [[0, 4, 0], [0, 5, 0], [0, 6, 0]]}\n";
   for (const std::string& cables : {bc + ab, ab + bc}) {
     const Network network = network_of(points + cables);
-    EXPECT_EQ(network.velocity[at(nodes_of(network, "ab")[1])], Vector3(0, 2, 0)) << cables;
+    EXPECT_EQ(network.velocity[nodes_of(network, "ab")[1]], Vector3(0, 2, 0)) << cables;
   }
 }
 

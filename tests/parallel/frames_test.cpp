@@ -19,8 +19,8 @@ protected:
   Frames() {
     for (const auto& [node, motion] : network_.prescribed) {
       const scene::Kinematics held = motion.at(t_);
-      x_[at(node)] = held.x;
-      v_[at(node)] = held.v;
+      x_[node] = held.x;
+      v_[node] = held.v;
     }
   }
 
@@ -39,7 +39,7 @@ protected:
 
 double tension(const network::Network& network, const network::Element& e, const Field& x, const Field& v) {
   return elements::cable_tension(network.materials[at(e.material)], e.length,
-                                 {x[at(e.node[1])] - x[at(e.node[0])], v[at(e.node[1])] - v[at(e.node[0])]});
+                                 {x[e.node[1]] - x[e.node[0]], v[e.node[1]] - v[e.node[0]]});
 }
 
 }   // namespace
@@ -58,7 +58,8 @@ TEST_P(Frames, TheMeshIsTheScenesInBlocks) {
   EXPECT_EQ(counts[1], mesh.elements);
   for (std::size_t i = 0; i < mesh.lines.size(); ++i) {
     const int element = static_cast<int>(mesh.first_element) + static_cast<int>(i);
-    EXPECT_EQ(mesh.lines[i], network_.elements[at(element)].node);
+    const auto& [from, to] = network_.elements[at(element)].node;
+    EXPECT_EQ(mesh.lines[i], (std::array{from.value(), to.value()}));
     EXPECT_EQ(mesh.rank[i], system_.partition.element_owner[at(element)]);
     const network::Span& span = network_.spans[at(mesh.cable_id[i])];
     EXPECT_GE(element, span.first_element);
@@ -77,31 +78,31 @@ TEST_P(Frames, ValuesAreInTheScenesOrder) {
   EXPECT_EQ(frame.tension.size(), mesh.lines.size());
   EXPECT_EQ(frame.strain.size(), mesh.lines.size());
   for (std::size_t i = 0; i < frame.points.size(); ++i) {
-    const std::size_t node = static_cast<std::size_t>(mesh.first_node) + i / 3;
-    EXPECT_EQ(frame.points[i], x_[node](static_cast<int>(i % 3))) << "node " << node;
-    EXPECT_EQ(frame.velocity[i], v_[node](static_cast<int>(i % 3))) << "node " << node;
+    const SceneNode node(static_cast<int>(mesh.first_node) + static_cast<int>(i / 3));
+    EXPECT_EQ(frame.points[i], x_[node](static_cast<int>(i % 3))) << "node " << node.value();
+    EXPECT_EQ(frame.velocity[i], v_[node](static_cast<int>(i % 3))) << "node " << node.value();
   }
   for (std::size_t i = 0; i < frame.tension.size(); ++i) {
     const network::Element& e = network_.elements[static_cast<std::size_t>(mesh.first_element) + i];
-    const double stretched = (x_[at(e.node[1])] - x_[at(e.node[0])]).norm();
+    const double stretched = (x_[e.node[1]] - x_[e.node[0]]).norm();
     EXPECT_NEAR(frame.tension[i], tension(network_, e, x_, v_), 1e-10) << "element " << i;
     EXPECT_NEAR(frame.strain[i], stretched / e.length - 1, 1e-14) << "element " << i;
   }
 }
 
 TEST_P(Frames, ANodesTensionIsTheMeanOfItsElements) {
-  std::vector<double> sum(network_.position.size(), 0), count(network_.position.size(), 0);
+  Table<SceneNode, double> sum(network_.position.size(), 0), count(network_.position.size(), 0);
   for (const auto& e : network_.elements)
-    for (const int node : e.node) {
-      sum[at(node)] += tension(network_, e, x_, v_);
-      count[at(node)] += 1;
+    for (const SceneNode node : e.node) {
+      sum[node] += tension(network_, e, x_, v_);
+      count[node] += 1;
     }
   for (int again = 0; again < 2; ++again) {
     const output::Frame frame = collect(frames_);
     EXPECT_EQ(frame.tension_node.size(), static_cast<std::size_t>(frames_.mesh().local_nodes));
     for (std::size_t i = 0; i < frame.tension_node.size(); ++i) {
-      const std::size_t node = static_cast<std::size_t>(frames_.mesh().first_node) + i;
-      EXPECT_NEAR(frame.tension_node[i], sum[node] / std::max(1.0, count[node]), 1e-10) << "node " << node;
+      const SceneNode node(static_cast<int>(frames_.mesh().first_node) + static_cast<int>(i));
+      EXPECT_NEAR(frame.tension_node[i], sum[node] / std::max(1.0, count[node]), 1e-10) << "node " << node.value();
     }
   }
 }

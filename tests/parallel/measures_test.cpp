@@ -20,11 +20,12 @@ cables:
 )";
 
 /// Per node: half of each element's mass, and the point's.
-std::vector<double> lumped_mass(const network::Network& network) {
-  std::vector<double> mass(network.position.size(), 0);
+Table<SceneNode, double> lumped_mass(const network::Network& network) {
+  Table<SceneNode, double> mass(network.position.size(), 0);
   for (const auto& e : network.elements)
-    for (const int node : e.node) mass[at(node)] += 0.5 * network.materials[at(e.material)].mass_per_length * e.length;
-  for (const auto& load : network.loads) mass[at(load.node)] += load.mass;
+    for (const SceneNode node : e.node)
+      mass[node] += 0.5 * network.materials[at(e.material)].mass_per_length * e.length;
+  for (const auto& load : network.loads) mass[load.node] += load.mass;
   return mass;
 }
 
@@ -48,9 +49,9 @@ TEST_F(AssemblerFalling, TheMassMatrixHoldsTheMassAndTheKineticEnergy) {
   const system::Vector product = system_.assembler.make_vector();
   petsc::check(MatMult(mass.matrix(), system_.vector(Field(zero_.size(), Vector3::Ones())), product));
   const Field row_sums = system_.field(product);
-  const std::vector<double> lumped = lumped_mass(network_);
-  for (std::size_t i = 0; i < lumped.size(); ++i)
-    EXPECT_LE((row_sums[i] - lumped[i] * Vector3::Ones()).norm(), 1e-13) << "node " << i;
+  const Table<SceneNode, double> lumped = lumped_mass(network_);
+  for (SceneNode node(0); node.value() < lumped.size(); ++node)
+    EXPECT_LE((row_sums[node] - lumped[node] * Vector3::Ones()).norm(), 1e-13) << "node " << node.value();
   const Field speed = disturbed(zero_, 5, 1);
   const system::Vector v = system_.vector(speed);
   PetscScalar twice = 0;
@@ -72,14 +73,14 @@ TEST_F(AssemblerFalling, TheEnergiesAreTheirFormulas) {
   double strain = 0, gravity = 0, work = 0;
   for (const auto& e : network_.elements) {
     const auto& material = network_.materials[at(e.material)];
-    const Vector3 d = x[at(e.node[1])] - x[at(e.node[0])];
+    const Vector3 d = x[e.node[1]] - x[e.node[0]];
     const double stretch = d.norm() / e.length - 1;
     strain += 0.5 * material.axial_stiffness * e.length * stretch * stretch;
-    gravity += 9.81 * material.mass_per_length * e.length * 0.5 * (x[at(e.node[0])] + x[at(e.node[1])]).z();
+    gravity += 9.81 * material.mass_per_length * e.length * 0.5 * (x[e.node[0]] + x[e.node[1]]).z();
   }
   for (const auto& load : network_.loads) {
-    gravity += load.mass * 9.81 * x[at(load.node)].z();
-    work += load.force.dot(x[at(load.node)] - network_.position[at(load.node)]);
+    gravity += load.mass * 9.81 * x[load.node].z();
+    work += load.force.dot(x[load.node] - network_.position[load.node]);
   }
   const double kinetic = energy(system_.assembler, &system::Energies::kinetic);
   EXPECT_NEAR(energy(system_.assembler, &system::Energies::strain), strain, 1e-12 * strain);
@@ -100,22 +101,22 @@ cables: {chain: {type: rope, from: top, to: tip, elements: 6}}
   const system::Vector force = system.assembler.make_vector();
   system.assembler.force(0, system.vector(network.position), system.vector(zero), force);
   const Field unstrained = system.field(force);
-  const std::vector<double> mass = lumped_mass(network);
-  const int tip = network.point_node[1];
+  const Table<SceneNode, double> mass = lumped_mass(network);
+  const SceneNode tip = network.point_node[1];
   Field at_rest = network.position;
   double tension = 2 * 9.81 - 4;
-  for (std::size_t i = 1; i < mass.size(); ++i) {
-    const Vector3 load = static_cast<int>(i) == tip ? Vector3(1, 0, 4) : Vector3(0, 0, 0);
-    EXPECT_LE((unstrained[i] - Vector3(0, 0, -9.81 * mass[i]) - load).norm(), 1e-12) << "node " << i;
+  for (SceneNode node(1); node.value() < mass.size(); ++node) {
+    const Vector3 load = node == tip ? Vector3(1, 0, 4) : Vector3(0, 0, 0);
+    EXPECT_LE((unstrained[node] - Vector3(0, 0, -9.81 * mass[node]) - load).norm(), 1e-12) << "node " << node.value();
   }
   // From the tip up; the sideways force at the tip is what is left.
   std::vector<double> stretched(network.elements.size());
   for (std::size_t e = stretched.size(); e-- > 0;)
     stretched[e] = 1 + ((tension += 0.5 * 0.5 * 9.81), tension) / 2000, tension += 0.5 * 0.5 * 9.81;
   for (std::size_t e = 0; e < stretched.size(); ++e)
-    at_rest[at(network.elements[e].node[1])] = at_rest[at(network.elements[e].node[0])] - Vector3(0, 0, stretched[e]);
+    at_rest[network.elements[e].node[1]] = at_rest[network.elements[e].node[0]] - Vector3(0, 0, stretched[e]);
   system.assembler.force(0, system.vector(at_rest), system.vector(zero), force);
   Field left = system.field(force);
-  left[at(tip)].x() -= 1;
+  left[tip].x() -= 1;
   EXPECT_LE(size(left), 1e-9);
 }

@@ -28,22 +28,22 @@ using Rule = std::function<int(int number, bool shared)>;
 LocalNetwork local_network(const network::Network& network, const Rule& rule) {
   const partition::Partition partition = partition::make_partition(network, PETSC_COMM_WORLD);
   LocalNetwork local = partition::make_local_network(network, partition, rank_of(PETSC_COMM_WORLD));
-  const std::vector<int>& shared = partition.interface.number;
-  std::vector<std::pair<int, int>> large;
-  for (int i = 0; i < local.free_nodes; ++i)
-    if (const int size = rule(i, std::find(shared.begin(), shared.end(), i) != shared.end()); size != 3)
+  const std::vector<SolverNumber>& shared = partition.interface.number;
+  std::vector<std::pair<SolverNumber, int>> large;
+  for (SolverNumber i(0); i.value() < local.free_nodes; ++i)
+    if (const int size = rule(i.value(), std::find(shared.begin(), shared.end(), i) != shared.end()); size != 3)
       large.emplace_back(i, size);
   local.blocks = partition::Blocks(local.free_nodes, large);
   return local;
 }
 
 /// Not symmetric.  Bodies' large entries are on the other diagonal, so that their rows must be exchanged.
-void add_block(Mat matrix, const partition::Blocks& blocks, int i, int j) {
+void add_block(Mat matrix, const partition::Blocks& blocks, SolverNumber i, SolverNumber j) {
   const int rows = blocks.size(i), columns = blocks.size(j);
   for (int r = 0; r < rows; ++r)
     for (int c = 0; c < columns; ++c) {
       const bool large = i == j && c == (rows == 3 ? r : rows - 1 - r);
-      const double value = noise(7 * (61 * i + j) + 49 * r + c) / 2 + (large ? 9 : 0);
+      const double value = noise(7 * (61 * i.value() + j.value()) + 49 * r + c) / 2 + (large ? 9 : 0);
       petsc::check(MatSetValue(matrix, blocks.begin(i) + r, blocks.begin(j) + c, value, INSERT_VALUES));
     }
 }
@@ -55,12 +55,13 @@ Matrix matrix_of(const LocalNetwork& network) {
   Matrix matrix;
   petsc::check(MatCreateAIJ(PETSC_COMM_WORLD, rows, rows, PETSC_DETERMINE, PETSC_DETERMINE, most_in_row, nullptr,
                             most_in_row, nullptr, matrix.out()));
-  for (int i = 0; i < network.owned; ++i) add_block(matrix, blocks, network.number(i), network.number(i));
+  for (LocalNode node(0); network.is_owned(node); ++node)
+    add_block(matrix, blocks, network.number(node), network.number(node));
   for (const auto& element : network.elements) {
     const auto [a, b] = element.node;
     if (!network.is_free(a) || !network.is_free(b)) continue;
-    if (a < network.owned) add_block(matrix, blocks, network.number(a), network.number(b));
-    if (b < network.owned) add_block(matrix, blocks, network.number(b), network.number(a));
+    if (network.is_owned(a)) add_block(matrix, blocks, network.number(a), network.number(b));
+    if (network.is_owned(b)) add_block(matrix, blocks, network.number(b), network.number(a));
   }
   petsc::check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
   petsc::check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
@@ -137,7 +138,7 @@ TEST_P(MixedBlocks, AreSolvedExactly) {
   EXPECT_LE(problem.error(300), 1e-13) << "another right-hand side, the same factors";
   petsc::check(MatScale(problem.matrix, -3));
   EXPECT_LE(problem.error(), 1e-13) << "another matrix of the same pattern";
-  EXPECT_EQ(problem.pc->pivots().singular_node, -1);
+  EXPECT_EQ(problem.pc->pivots().singular_node, SolverNumber());
 }
 
 /// A factorisation of half the matrix would take the other half for its mirror.
@@ -151,7 +152,8 @@ TEST_P(MixedBlocks, AreNotTakenForSymmetric) {
 TEST_P(MixedBlocks, AreNamedWhereTheMatrixIsSingular) {
   const auto& [scene, named] = GetParam();
   Problem problem(network_of(scene.text), named.rule);
-  const int node = problem.local.free_nodes / 2, size = problem.local.blocks.size(node);
+  const SolverNumber node(problem.local.free_nodes / 2);
+  const int size = problem.local.blocks.size(node);
   std::vector<PetscInt> rows(at(size));
   std::iota(rows.begin(), rows.end(), problem.local.blocks.begin(node));
   petsc::check(MatZeroRowsColumns(problem.matrix, size, rows.data(), 0, nullptr, nullptr));

@@ -114,7 +114,7 @@ TEST_P(NetworkPcOf, SolvesExactlyInOneIteration) {
   EXPECT_LE(problem.relative_residual(70), 1e-13) << "another right-hand side, the same factors";
   problem.tangent().set_identity(4);
   EXPECT_LE(problem.relative_residual(), 1e-15) << "another matrix of the same pattern";
-  EXPECT_EQ(problem.pc().pivots().singular_node, -1);
+  EXPECT_EQ(problem.pc().pivots().singular_node, SolverNumber());
   EXPECT_EQ(problem.pc().pivots().negative, 0);
 }
 
@@ -154,7 +154,7 @@ TEST(NetworkPc, NamesTheNodeWhereTheMatrixIsSingular) {
       petsc::check(MatZeroRowsColumns(problem.matrix(), 3, rows, 0, nullptr, nullptr));
       problem.relative_residual();
       EXPECT_EQ(problem.reason(), KSP_DIVERGED_PC_FAILED);
-      EXPECT_EQ(problem.pc().pivots().singular_node, node);
+      EXPECT_EQ(problem.pc().pivots().singular_node, SolverNumber(node));
       EXPECT_FALSE(std::isfinite(problem.relative_residual()));
       problem.tangent().set_identity(1);
       EXPECT_LE(problem.relative_residual(), 1e-15) << "a regular matrix after a singular one";

@@ -19,32 +19,39 @@ protected:
   network::Network network_ = network_of(GetParam().text);
   partition::Partition partition_ = partition::make_partition(network_, PETSC_COMM_WORLD);
   int ranks_ = size_of(PETSC_COMM_WORLD);
-  std::vector<bool> held_ = held_nodes(network_);
+  Table<SceneNode, bool> held_ = held_nodes(network_);
 
   /// Elements between free nodes, as pairs of solver numbers.
   Edges edges() const {
     Edges edges;
     for (const auto& element : network_.elements)
-      if (!held_[at(element.node[0])] && !held_[at(element.node[1])])
-        edges.emplace_back(partition_.solver_number[at(element.node[0])],
-                           partition_.solver_number[at(element.node[1])]);
+      if (!held_[element.node[0]] && !held_[element.node[1]])
+        edges.emplace_back(partition_.solver_number[element.node[0]].value(),
+                           partition_.solver_number[element.node[1]].value());
     return edges;
   }
 
   /// Per solver number.
   std::vector<bool> on_interface() const {
     std::vector<bool> found(at(partition_.first_number.back()), false);
-    for (const int number : partition_.interface.number) found.at(at(number)) = true;
+    for (const SolverNumber number : partition_.interface.number) found.at(at(number)) = true;
     return found;
   }
 
   int rank_of_number(int number) const {
-    const auto next = std::upper_bound(partition_.first_number.begin(), partition_.first_number.end(), number);
+    const auto next =
+        std::upper_bound(partition_.first_number.begin(), partition_.first_number.end(), SolverNumber(number));
     return static_cast<int>(next - partition_.first_number.begin()) - 1;
   }
 };
 
-void expect_same_everywhere(std::vector<int> values) {
+int value_of(int number) { return number; }
+int value_of(SolverNumber number) { return number.value(); }
+
+template <class Numbers>
+void expect_same_everywhere(const Numbers& numbers) {
+  std::vector<int> values;
+  for (const auto& number : numbers) values.push_back(value_of(number));
   const std::vector<int> own = values;
   long count = static_cast<long>(values.size());
   MPI_Bcast(&count, 1, MPI_LONG, 0, PETSC_COMM_WORLD);
@@ -56,19 +63,20 @@ void expect_same_everywhere(std::vector<int> values) {
 }   // namespace
 
 TEST_P(Partition, EveryFreeNodeHasOneOwnerAndANumberInItsRange) {
-  const int free_nodes = static_cast<int>(network_.position.size() - network_.prescribed.size());
+  const int free_nodes = network_.position.size() - static_cast<int>(network_.prescribed.size());
   ASSERT_EQ(partition_.node_owner.size(), network_.position.size());
   ASSERT_EQ(partition_.solver_number.size(), network_.position.size());
   ASSERT_EQ(partition_.first_number.size(), at(ranks_) + 1);
-  EXPECT_EQ(partition_.first_number.front(), 0);
-  EXPECT_EQ(partition_.first_number.back(), free_nodes);
+  EXPECT_EQ(partition_.first_number.front(), SolverNumber(0));
+  EXPECT_EQ(partition_.first_number.back(), SolverNumber(free_nodes));
   EXPECT_TRUE(std::is_sorted(partition_.first_number.begin(), partition_.first_number.end()));
-  std::set<int> numbers;
-  for (std::size_t i = 0; i < held_.size(); ++i) {
-    const int owner = partition_.node_owner[i], number = partition_.solver_number[i];
+  std::set<SolverNumber> numbers;
+  for (SceneNode node(0); node.value() < held_.size(); ++node) {
+    const int owner = partition_.node_owner[node], i = node.value();
+    const SolverNumber number = partition_.solver_number[node];
     EXPECT_TRUE(owner >= 0 && owner < ranks_) << "node " << i;
-    EXPECT_EQ(held_[i], number == -1) << "node " << i;
-    if (held_[i]) continue;
+    EXPECT_EQ(held_[node], !number.exists()) << "node " << i;
+    if (held_[node]) continue;
     numbers.insert(number);
     EXPECT_GE(number, partition_.first_number[at(owner)]) << "node " << i;
     EXPECT_LT(number, partition_.first_number[at(owner) + 1]) << "node " << i;
@@ -101,12 +109,13 @@ TEST_P(Partition, OneRankHasNoInterfaceAndSeveralHaveOneWhereElementsLeadAcross)
 
 TEST_P(Partition, InterfaceNodesAreTheLastOfTheirRankInTheirOrderOfElimination) {
   const std::vector<bool> interface = on_interface();
-  for (int number = 0; number + 1 < partition_.first_number.back(); ++number) {
+  for (int number = 0; number + 1 < partition_.first_number.back().value(); ++number) {
     const bool same_rank = rank_of_number(number) == rank_of_number(number + 1);
     EXPECT_TRUE(!interface[at(number)] || interface[at(number + 1)] || !same_rank) << number;
   }
   std::vector<int> last(at(ranks_), -1);
-  for (const int number : partition_.interface.number) {
+  for (const SolverNumber found : partition_.interface.number) {
+    const int number = found.value();
     EXPECT_GT(number, last[at(rank_of_number(number))]);
     last[at(rank_of_number(number))] = number;
   }
@@ -122,7 +131,7 @@ TEST_P(Partition, InterfaceGraphIsWhatEliminatedInteriorsLeave) {
   for (std::size_t i = 0; i < found.number.size(); ++i) {
     std::multiset<int> numbers;
     for (int k = found.graph.first[i]; k < found.graph.first[i + 1]; ++k)
-      numbers.insert(found.number[at(found.graph.adjacent[at(k)])]);
+      numbers.insert(found.number[at(found.graph.adjacent[at(k)])].value());
     const std::set<int>& expected = left[at(found.number[i])];
     EXPECT_EQ(numbers, std::multiset<int>(expected.begin(), expected.end())) << "interface node " << i;
   }
@@ -132,8 +141,8 @@ TEST_P(Partition, AnElementBelongsToTheOwnerOfAFreeNode) {
   ASSERT_EQ(partition_.element_owner.size(), network_.elements.size());
   for (std::size_t e = 0; e < network_.elements.size(); ++e) {
     std::set<int> allowed;
-    for (const int node : network_.elements[e].node)
-      if (!held_[at(node)]) allowed.insert(partition_.node_owner[at(node)]);
+    for (const SceneNode node : network_.elements[e].node)
+      if (!held_[node]) allowed.insert(partition_.node_owner[node]);
     // One that is held at both ends may be anywhere where there are rows to say that something is wrong with it.
     const int owner = partition_.element_owner[e];
     if (allowed.empty() && partition_.first_number[at(owner)] < partition_.first_number[at(owner) + 1])
@@ -164,11 +173,11 @@ INSTANTIATE_TEST_SUITE_P(TwoNets, Partition, testing::Values(NamedScene{"two_net
 TEST(PartitionNumbers, RunAlongAChain) {
   const network::Network network = network_of(chain);
   const partition::Partition partition = partition::make_partition(network, PETSC_COMM_WORLD);
-  const std::set<int> interface(partition.interface.number.begin(), partition.interface.number.end());
+  const std::set<SolverNumber> interface(partition.interface.number.begin(), partition.interface.number.end());
   int steps = 0;
   for (const auto& element : network.elements) {
-    const int a = partition.solver_number[at(element.node[0])], b = partition.solver_number[at(element.node[1])];
-    if (a < 0 || b < 0 || interface.contains(a) || interface.contains(b)) continue;
+    const SolverNumber a = partition.solver_number[element.node[0]], b = partition.solver_number[element.node[1]];
+    if (!a.exists() || !b.exists() || interface.contains(a) || interface.contains(b)) continue;
     EXPECT_LE(std::abs(a - b), 2);
     ++steps;
   }

@@ -78,17 +78,17 @@ TEST(Probes, AHangingChainAtRest) {
   for (int e = 0; e < 6; ++e) {
     const auto& [above, below] = chain.network().elements[at(e)].node;
     const double tension = 2 * 9.81 + weight * (6 - e - 0.5);
-    x[at(below)] = x[at(above)] - Vector3(0, 0, 1 + tension / EA);
+    x[below] = x[above] - Vector3(0, 0, 1 + tension / EA);
     strain += 0.5 * tension * tension / EA;
-    gravity += 0.5 * weight * (x[at(above)] + x[at(below)]).z();
+    gravity += 0.5 * weight * (x[above] + x[below]).z();
   }
-  const int tip = chain.network().point_node[1];
-  gravity += 2 * 9.81 * x[at(tip)].z();
+  const SceneNode tip = chain.network().point_node[1];
+  gravity += 2 * 9.81 * x[tip].z();
   auto row = chain.row(0.5, x, zero, zero);
   EXPECT_EQ(row.at("time"), 0.5);
   EXPECT_LE((vector_of(row, "top", "f") - Vector3(0, 0, 6 * weight + 2.7 * 9.81)).norm(), 1e-9);
   EXPECT_EQ(vector_of(row, "top", ""), Vector3(1, 2, 0));
-  EXPECT_EQ(vector_of(row, "tip", ""), x[at(tip)]);
+  EXPECT_EQ(vector_of(row, "tip", ""), x[tip]);
   EXPECT_NEAR(row.at("chain.tension_from"), 6 * weight + 2 * 9.81, 1e-9);
   EXPECT_NEAR(row.at("chain.tension_to"), 2 * 9.81, 1e-9);
   EXPECT_EQ(row.at("energy.kinetic"), 0);
@@ -101,14 +101,14 @@ TEST(Probes, AHangingChainAtRest) {
 
 TEST(Probes, KinematicsAreTheObservedState) {
   Observed scene(moving);
-  const std::size_t nodes = scene.network().position.size();
+  const int nodes = scene.network().position.size();
   const Field zero(nodes, Vector3::Zero());
   const Field x = disturbed(scene.network().position, 0.3, 1);
   const Field v = disturbed(zero, 2, 1000), a = disturbed(zero, 9, 2000);
   const double t = 0.75;
   auto row = scene.row(t, x, v, a);
   for (const auto& [name, point] : {std::pair{"tip", 3}, {"tail", 2}}) {
-    const std::size_t node = at(scene.network().point_node[at(point)]);
+    const SceneNode node = scene.network().point_node[at(point)];
     EXPECT_EQ(vector_of(row, name, ""), x[node]) << name;
     EXPECT_EQ(vector_of(row, name, "v"), v[node]) << name;
     EXPECT_EQ(vector_of(row, name, "a"), a[node]) << name;
@@ -131,14 +131,14 @@ TEST(Probes, EndTensionsAreWhatPullsAtTheEnds) {
   auto row = scene.row(0.75, x, v, a);
   for (const auto& [node, motion] : network.prescribed) {
     const scene::Kinematics held = motion.at(0.75);
-    x[at(node)] = held.x, v[at(node)] = held.v, a[at(node)] = held.a;
+    x[node] = held.x, v[node] = held.v, a[node] = held.a;
   }
   Vector3 at_tow = Vector3::Zero();
   for (const auto& [name, first, elements] : network.spans)
     for (int side = 0; side < 2; ++side) {
       const network::Element& e = network.elements[at(side == 0 ? first : first + elements - 1)];
       const auto& material = network.materials[at(e.material)];
-      const std::size_t i = at(e.node[0]), j = at(e.node[1]);
+      const SceneNode i = e.node[0], j = e.node[1];
       const elements::Chord chord{x[j] - x[i], v[j] - v[i]};
       const auto forces = elements::cable_end_forces(
           material, e.length, 0, chord, {a[i] + material.mass_damping * v[i], a[j] + material.mass_damping * v[j]});

@@ -122,7 +122,8 @@ void fill_velocity(const System& system, const Vector3& velocity, Vec v) {
   double* values = nullptr;
   petsc::check(VecSet(v, 0));
   petsc::check(VecGetArray(v, &values));
-  for (int i = 0; i < network.owned; ++i) Eigen::Map<Vector3>(values + network.begin[at(i)]) = velocity;
+  for (LocalNode node(0); network.is_owned(node); ++node)
+    Eigen::Map<Vector3>(values + network.begin[node].value()) = velocity;
   petsc::check(VecRestoreArray(v, &values));
 }
 

@@ -17,9 +17,7 @@
 namespace cablenet::test {
 
 /// Per scene node.
-using Field = std::vector<Vector3>;
-
-inline std::size_t at(int index) { return static_cast<std::size_t>(index); }
+using Field = Table<SceneNode, Vector3>;
 
 inline int rank_of(MPI_Comm communicator) {
   int rank = 0;
@@ -48,9 +46,9 @@ inline scene::Scene scene_of(const std::string& text) {
 inline network::Network network_of(const std::string& text) { return network::build_network(scene_of(text)); }
 
 /// Per node: is it prescribed?
-inline std::vector<bool> held_nodes(const network::Network& network) {
-  std::vector<bool> held(network.position.size(), false);
-  for (const auto& item : network.prescribed) held[at(item.node)] = true;
+inline Table<SceneNode, bool> held_nodes(const network::Network& network) {
+  Table<SceneNode, bool> held(network.position.size(), false);
+  for (const auto& item : network.prescribed) held[item.node] = true;
   return held;
 }
 
@@ -63,8 +61,8 @@ inline double noise(int index) {
 /// base + scale * noise.
 inline Field disturbed(const Field& base, double scale, int seed) {
   Field field = base;
-  for (std::size_t i = 0; i < field.size(); ++i)
-    for (int k = 0; k < 3; ++k) field[i](k) += scale * noise(seed + 3 * static_cast<int>(i) + k);
+  for (SceneNode node(0); node.value() < field.size(); ++node)
+    for (int k = 0; k < 3; ++k) field[node](k) += scale * noise(seed + 3 * node.value() + k);
   return field;
 }
 
@@ -80,8 +78,9 @@ struct System {
     system::Vector vector = assembler.make_vector();
     double* array = nullptr;
     petsc::check(VecGetArrayWrite(vector, &array));
-    for (int i = 0; i < assembler.network().owned; ++i)
-      Eigen::Map<Vector3>(array + assembler.network().begin[at(i)]) = field[at(assembler.network().scene_node[at(i)])];
+    const partition::LocalNetwork& here = assembler.network();
+    for (LocalNode node(0); here.is_owned(node); ++node)
+      Eigen::Map<Vector3>(array + here.begin[node].value()) = field[here.scene_node[node]];
     petsc::check(VecRestoreArrayWrite(vector, &array));
     return vector;
   }
@@ -91,9 +90,9 @@ struct System {
     Field field(network.position.size(), Vector3::Zero());
     const double* array = nullptr;
     petsc::check(VecGetArrayRead(vector, &array));
-    for (int i = 0; i < assembler.network().owned; ++i)
-      field[at(assembler.network().scene_node[at(i)])] =
-          Eigen::Map<const Vector3>(array + assembler.network().begin[at(i)]);
+    const partition::LocalNetwork& here = assembler.network();
+    for (LocalNode node(0); here.is_owned(node); ++node)
+      field[here.scene_node[node]] = Eigen::Map<const Vector3>(array + here.begin[node].value());
     petsc::check(VecRestoreArrayRead(vector, &array));
     MPI_Allreduce(MPI_IN_PLACE, field.data(), static_cast<int>(3 * field.size()), MPI_DOUBLE, MPI_SUM,
                   assembler.communicator());
@@ -114,7 +113,7 @@ inline double size(const Field& field) {
 
 inline Field difference(const Field& a, const Field& b) {
   Field field = a;
-  for (std::size_t i = 0; i < a.size(); ++i) field[i] -= b[i];
+  for (SceneNode node(0); node.value() < a.size(); ++node) field[node] -= b[node];
   return field;
 }
 

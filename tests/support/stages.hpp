@@ -13,9 +13,11 @@ inline system::Vector shifted(const System& system, Vec base, double scale, int 
   petsc::check(VecCopy(base, result));
   double* array = nullptr;
   petsc::check(VecGetArray(result, &array));
-  for (int i = 0; i < network.owned; ++i)
-    for (int k = network.begin[at(i)]; k < network.begin[at(i) + 1]; ++k)
-      array[k] += scale * noise(seed + 10 * network.scene_node[at(i)] + k - network.begin[at(i)]);
+  for (LocalNode node(0); network.is_owned(node); ++node) {
+    const int begin = network.begin[node].value(), end = network.begin[node + 1].value();
+    for (int k = begin; k < end; ++k)
+      array[k] += scale * noise(seed + 10 * network.scene_node[node].value() + k - begin);
+  }
   petsc::check(VecRestoreArray(result, &array));
   return result;
 }
@@ -88,12 +90,12 @@ inline double relative_difference(Vec found, Vec expected) {
 inline std::vector<double> everywhere(const System& system, Vec vector) {
   constexpr std::size_t most = 7;
   const partition::LocalNetwork& network = system.assembler.network();
-  std::vector<double> all(most * system.network.position.size(), 0.0);
+  std::vector<double> all(most * at(system.network.position.size()), 0.0);
   const double* array = nullptr;
   petsc::check(VecGetArrayRead(vector, &array));
-  for (int i = 0; i < network.owned; ++i)
-    std::copy(array + network.begin[at(i)], array + network.begin[at(i) + 1],
-              all.data() + most * at(network.scene_node[at(i)]));
+  for (LocalNode node(0); network.is_owned(node); ++node)
+    std::copy(array + network.begin[node].value(), array + network.begin[node + 1].value(),
+              all.data() + most * at(network.scene_node[node]));
   petsc::check(VecRestoreArrayRead(vector, &array));
   MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM,
                 system.assembler.communicator());

@@ -7,14 +7,13 @@
 #include <numeric>
 #include <utility>
 
+using cablenet::at;
 using namespace cablenet::elimination;
 
 namespace {
 
 using Edges = std::vector<std::pair<int, int>>;
 using Dense = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 double noise(int index) {
   const double value = std::sin(12.9898 * index + 0.37) * 43758.5453;

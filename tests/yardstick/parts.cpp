@@ -15,11 +15,10 @@
 /// the part that takes most work, and the interface, on this core alone.
 namespace {
 
+using cablenet::at;
 using cablenet::elimination::Elimination;
 using cablenet::elimination::Pattern;
 using cablenet::partition::Graph;
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// Half the nodes on a trunk, the others on branches at even distances.
 Graph array(int nodes, int branches) {

@@ -81,7 +81,7 @@ private:
   void backward_run(int begin, int end, double* w, const double* shifted);
   template <bool mixed>
   std::ptrdiff_t unknown(int block) const {
-    return mixed ? begin_[static_cast<std::size_t>(block)] : 3 * std::ptrdiff_t{block};
+    return mixed ? begin_[at(block)] : 3 * std::ptrdiff_t{block};
   }
   /// Of the eliminated blocks.
   std::ptrdiff_t unknowns() const;

@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "cablenet/base/index.hpp"
+
 /// The order of work of a block elimination, laid down once for a pattern of couplings.
 /// Tests: tests/unit/elimination_test.cpp
 namespace cablenet::elimination {
@@ -50,11 +52,9 @@ struct Schedule {
   double updates = 0;   ///< products of 3x3 blocks in a factorisation, or as much work
 
   int eliminated() const { return static_cast<int>(first_later.size()) - 1; }
-  std::int64_t pivot(int k) const { return uniform ? 9 * std::int64_t{k} : mixed_pivots[static_cast<std::size_t>(k)]; }
+  std::int64_t pivot(int k) const { return uniform ? 9 * std::int64_t{k} : mixed_pivots[at(k)]; }
   /// Of (k, j) in its region, as of (j, k) in its own.
-  std::int64_t coupling(int i) const {
-    return uniform ? 9 * std::int64_t{i} : mixed_couplings[static_cast<std::size_t>(i)];
-  }
+  std::int64_t coupling(int i) const { return uniform ? 9 * std::int64_t{i} : mixed_couplings[at(i)]; }
 };
 
 /// @param symmetric  taken up where all blocks are 3x3

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cablenet/base/index.hpp"
 #include "cablenet/base/linear_algebra.hpp"
 #include "cablenet/bodies/rigid_body.hpp"
 #include "cablenet/elements/cable.hpp"
@@ -17,27 +18,28 @@
 namespace cablenet::network {
 
 struct Element {
-  std::array<int, 2> node;
+  std::array<SceneNode, 2> node;
   int material;    ///< index into Network::materials
   double length;   ///< unstretched [m]
 };
 
 /// Point mass and constant force at a node.
-struct PointLoad {
-  int node;
+template <class Node>
+struct NodeLoad {
+  Node node;
   double mass;     ///< [kg]
   Vector3 force;   ///< [N]
 };
 
 struct PrescribedNode {
-  int node;
+  SceneNode node;
   scene::Motion motion;
 };
 
 /// A node whose unknowns go on with those of a body's attitude.
 struct Body {
   std::string name;
-  int node;   ///< its centre of gravity; the mass is one of Network::loads
+  SceneNode node;   ///< its centre of gravity; the mass is one of Network::loads
   bodies::Properties properties;
   bodies::RotationState start;                ///< attitude and angular velocity
   std::optional<bodies::BodyInWater> water;   ///< none: the scene has no fluid
@@ -47,16 +49,17 @@ struct Body {
 
 /// A node without unknowns of its own: a body's attachment.
 struct CarriedNode {
-  int node;
+  SceneNode node;
   int body;         ///< index into Network::bodies
   Vector3 offset;   ///< r from the centre of gravity, body axes [m]
 };
 
 /// The papers' massless stiff element: pulls a node and a carried one together by stiffness * distance.
 /// Source: Tonin & Braun, CILAMCE 2020, eqs 19, 20.
+template <class Node>
 struct Link {
-  std::array<int, 2> node;   ///< the cable's end, the carried node
-  double stiffness;          ///< EA/|r| [N/m]
+  std::array<Node, 2> node;   ///< the cable's end, the carried node
+  double stiffness;           ///< EA/|r| [N/m]
 };
 
 /// A cable's or a net's elements: [first_element, first_element + elements).
@@ -67,20 +70,20 @@ struct Span {
 };
 
 struct Network {
-  std::vector<Vector3> position;   ///< at the start [m]
-  std::vector<Vector3> velocity;   ///< at the start [m/s]
-  std::vector<Element> elements;   ///< cable after cable from end to end, then net after net
+  Table<SceneNode, Vector3> position;   ///< at the start [m]
+  Table<SceneNode, Vector3> velocity;   ///< at the start [m/s]
+  std::vector<Element> elements;        ///< cable after cable from end to end, then net after net
   std::vector<elements::CableMaterial> materials;
-  std::vector<PointLoad> loads;
+  std::vector<NodeLoad<SceneNode>> loads;
   std::vector<PrescribedNode> prescribed;   ///< held or moved nodes: no unknowns
   std::vector<Body> bodies;                 ///< the scene's
   std::vector<CarriedNode> carried;         ///< body after body
-  std::vector<Link> links;
+  std::vector<Link<SceneNode>> links;
   Surroundings surroundings;
-  std::vector<WetPoint> wet_points;
-  std::vector<Span> spans;       ///< the scene's cables, then its nets
-  std::vector<int> point_node;   ///< per scene point
-  double gravity = 0;            ///< [m/s^2] along -z
+  std::vector<WetPoint<SceneNode>> wet_points;
+  std::vector<Span> spans;             ///< the scene's cables, then its nets
+  std::vector<SceneNode> point_node;   ///< per scene point
+  double gravity = 0;                  ///< [m/s^2] along -z
 
   /// Of all free nodes and bodies.
   std::int64_t unknowns() const;

@@ -22,8 +22,9 @@ struct CableOnBed {
 };
 
 /// A node that water acts on by itself: a point, or a body's centre of buoyancy.
+template <class Node>
 struct WetPoint {
-  int node;
+  Node node;
   bodies::PointInWater water;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
+#include <map>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "cablenet/network/network.hpp"
@@ -35,8 +35,8 @@ private:
   };
   struct PointProbe {
     std::size_t column;
-    int node = -1;   ///< local, where this rank speaks for it
-    int load = -1;   ///< local index of its load, likewise
+    LocalNode node{};   ///< where this rank speaks for it
+    int load = -1;      ///< local index of its load, likewise
     bool prescribed = false;
     std::vector<ElementEnd> ends{};   ///< this rank's elements at it, if prescribed
   };
@@ -47,25 +47,25 @@ private:
 
   struct BodyProbe {
     std::size_t column;
-    int node = -1;        ///< local, where this rank has the body
+    LocalNode node{};     ///< where this rank has the body
     std::size_t body{};   ///< index into LocalNetwork::bodies, likewise
   };
 
-  /// By the scene's numbers: local nodes, this rank's own elements (-1: not here), ends where nothing pulls.
-  struct Places {
-    std::vector<int> node;
-    std::vector<int> element;
-    std::vector<bool> bare_end;
-    std::unordered_map<int, int> load;                       ///< by local node
-    std::unordered_map<int, std::vector<ElementEnd>> ends;   ///< by local prescribed node
+  /// By the scene's numbers: this rank's nodes and own elements (none: not here), and ends where nothing pulls.
+  struct Lookup {
+    Table<SceneNode, LocalNode> node;
+    std::vector<int> element;   ///< -1: not here
+    Table<SceneNode, bool> bare_end;
+    std::map<LocalNode, int> load;
+    std::map<LocalNode, std::vector<ElementEnd>> ends;   ///< of prescribed nodes
   };
 
-  void add_point(const scene::Scene& scene, const network::Network& network, int index, const Places& where);
+  void add_point(const scene::Scene& scene, const network::Network& network, int index, const Lookup& where);
   void add_body(const network::Network& network, int index);
-  void add_cable(const network::Network& network, int index, const Places& where);
+  void add_cable(const network::Network& network, int index, const Lookup& where);
   Vector3 end_force(const system::LocalState& state, const ElementEnd& end) const;
   void put(std::size_t column, const Vector3& value);
-  void put_motion(std::size_t column, const system::LocalState& state, int node);
+  void put_motion(std::size_t column, const system::LocalState& state, LocalNode node);
 
   const system::Assembler& assembler_;
   std::vector<std::string> columns_;

@@ -14,15 +14,15 @@
 namespace cablenet::partition {
 
 struct LocalElement {
-  std::array<int, 2> node;    ///< local
-  std::array<int, 2> place;   ///< of an owned node: its first unknown in this rank's vectors
+  std::array<LocalNode, 2> node;
+  std::array<Unknown, 2> unknown;   ///< of an owned node: its first unknown in this rank's vectors
   int material;
   double length;   ///< unstretched [m]
 };
 
 struct LocalBody {
-  int node;   ///< local, owned or ghost
-  int body;   ///< index into Network::bodies
+  LocalNode node;   ///< owned or ghost
+  int body;         ///< index into Network::bodies
   bodies::Properties properties;
   bodies::RotationState start;
   std::optional<bodies::BodyInWater> water;
@@ -30,7 +30,7 @@ struct LocalBody {
 };
 
 struct LocalCarried {
-  int node;   ///< local
+  LocalNode node;
   int body;   ///< index into LocalNetwork::bodies
   Vector3 offset;
 };
@@ -42,62 +42,59 @@ struct Range {
 };
 
 struct LocalPrescribed {
-  int node;   ///< local
+  LocalNode node;
   scene::Motion motion;
 };
 
 struct LocalNetwork {
   int owned = 0;
   int ghosts = 0;
-  int nodes = 0;                   ///< owned + ghosts + prescribed + carried
-  int first_number = 0;            ///< solver number of the first owned node
-  int free_nodes = 0;              ///< on all ranks together
-  int interior = 0;                ///< owned nodes before those of the interface
-  Blocks blocks;                   ///< of all ranks, as in Partition
-  std::vector<int> begin;          ///< per owned node, and one past: its first unknown in this rank's vectors
-  Interface interface;             ///< of all ranks, as in Partition
-  std::vector<int> ghost_number;   ///< solver numbers of the ghosts
-  std::vector<int> ghost_owner;    ///< rank
-  std::vector<int> ghost_place;    ///< where it stands in its owner's `sent`
-  std::vector<int> sent;           ///< owned nodes that are ghosts elsewhere
-  std::vector<int> scene_node;     ///< per local node
-  std::vector<bool> primary;       ///< per local node: this rank speaks for it
+  int nodes = 0;                            ///< owned + ghosts + prescribed + carried
+  SolverNumber first_number{0};             ///< of the first owned node
+  int free_nodes = 0;                       ///< on all ranks together
+  int interior = 0;                         ///< owned nodes before those of the interface
+  Blocks blocks;                            ///< of all ranks, as in Partition
+  Table<LocalNode, Unknown> begin;          ///< per owned node, and one past: its first unknown in this rank's vectors
+  Interface interface;                      ///< of all ranks, as in Partition
+  std::vector<SolverNumber> ghost_number;   ///< of the ghosts
+  std::vector<int> ghost_owner;             ///< rank
+  std::vector<int> ghost_slot;              ///< its index in its owner's `sent`
+  std::vector<LocalNode> sent;              ///< owned nodes that are ghosts elsewhere
+  Table<LocalNode, SceneNode> scene_node;
+  Table<LocalNode, bool> primary;   ///< this rank speaks for it
   /// First those between owned nodes, then the others that belong to this rank, then those that belong to another.
   std::vector<LocalElement> elements;
-  int inner_elements = 0;                  ///< between owned nodes
-  int own_elements = 0;                    ///< that belong to this rank
-  Range attached{0, 0};                    ///< those at carried nodes, own ones first
-  std::vector<int> scene_element;          ///< per local element
-  std::vector<network::PointLoad> loads;   ///< at nodes that this rank speaks for; node is local
+  int inner_elements = 0;                            ///< between owned nodes
+  int own_elements = 0;                              ///< that belong to this rank
+  Range attached{0, 0};                              ///< those at carried nodes, own ones first
+  std::vector<int> scene_element;                    ///< per local element
+  std::vector<network::NodeLoad<LocalNode>> loads;   ///< at nodes that this rank speaks for
   std::vector<LocalPrescribed> prescribed;
   std::vector<LocalBody> bodies;   ///< at owned nodes, then at ghosts
   int own_bodies = 0;
-  bool has_euler_bodies = false;       ///< on any rank
-  std::vector<LocalCarried> carried;   ///< body after body
-  std::vector<network::Link> links;    ///< nodes are local; own ones first
-  int own_links = 0;                   ///< that belong to this rank: the owner of the free end's
+  bool has_euler_bodies = false;                 ///< on any rank
+  std::vector<LocalCarried> carried;             ///< body after body
+  std::vector<network::Link<LocalNode>> links;   ///< own ones first
+  int own_links = 0;                             ///< that belong to this rank: the owner of the free end's
   std::vector<elements::CableMaterial> materials;
   network::Surroundings surroundings;
-  std::vector<network::WetPoint> wet_points;   ///< at nodes of this rank, or that its bodies carry; node is local
-  double gravity = 0;                          ///< [m/s^2] along -z
-  std::vector<Vector3> position;               ///< per local node, at the start [m]
-  std::vector<Vector3> velocity;               ///< per local node, at the start [m/s]
+  std::vector<network::WetPoint<LocalNode>> wet_points;   ///< at nodes of this rank, or that its bodies carry
+  double gravity = 0;                                     ///< [m/s^2] along -z
+  Table<LocalNode, Vector3> position;                     ///< at the start [m]
+  Table<LocalNode, Vector3> velocity;                     ///< at the start [m/s]
 
-  bool is_free(int local_node) const { return local_node < owned + ghosts; }
-  bool is_carried(int local_node) const { return local_node >= nodes - static_cast<int>(carried.size()); }
-  const LocalCarried& carried_at(int local_node) const {
-    return carried[static_cast<std::size_t>(local_node - nodes) + carried.size()];
-  }
+  bool is_owned(LocalNode node) const { return node.value() < owned; }
+  bool is_free(LocalNode node) const { return node.value() < owned + ghosts; }
+  bool is_carried(LocalNode node) const { return node.value() >= nodes - static_cast<int>(carried.size()); }
+  const LocalCarried& carried_at(LocalNode node) const { return carried[carried.size() - at(nodes - node.value())]; }
   /// The local node whose unknowns move this one.
-  int anchor(int local_node) const {
-    return is_carried(local_node) ? bodies[static_cast<std::size_t>(carried_at(local_node).body)].node : local_node;
-  }
+  LocalNode anchor(LocalNode node) const { return is_carried(node) ? bodies[at(carried_at(node).body)].node : node; }
   /// Of this rank's vectors.
-  int unknowns() const { return begin.empty() ? 0 : begin.back(); }
-  int all_unknowns() const { return blocks.begin(free_nodes); }
-  /// Solver number of a free local node.
-  int number(int local_node) const {
-    return local_node < owned ? first_number + local_node : ghost_number[static_cast<std::size_t>(local_node - owned)];
+  int unknowns() const { return begin.empty() ? 0 : begin[LocalNode(owned)].value(); }
+  int all_unknowns() const { return blocks.begin(SolverNumber(free_nodes)); }
+  /// Of a free node.
+  SolverNumber number(LocalNode node) const {
+    return is_owned(node) ? first_number + node.value() : ghost_number[at(node.value() - owned)];
   }
 };
 

@@ -79,8 +79,8 @@ private:
   int expected_newton_ = 1;         ///< as many as the last step took
   Counts counts_;
   std::string failure_;
-  int failed_node_ = -1;   ///< solver number: where the tangent was singular
-  double furthest_ = 0;    ///< largest coordinate [m]
+  SolverNumber failed_node_;   ///< where the tangent was singular
+  double furthest_ = 0;        ///< largest coordinate [m]
   NewtonConvergence convergence_;
   double last_step_ = 0;      ///< [s]
   int outside_domain_ = -1;   ///< scene number of an element that lost its length in the running step

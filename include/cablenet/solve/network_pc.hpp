@@ -13,8 +13,8 @@ namespace cablenet::solve {
 
 /// What the last factorisation met, on all ranks together.
 struct PivotReport {
-  int singular_node = -1;   ///< solver number of a node at which the tangent is singular; -1: none
-  long negative = 0;        ///< negative pivots
+  SolverNumber singular_node;   ///< a node at which the tangent is singular; none where it is not
+  long negative = 0;            ///< negative pivots
 };
 
 /// All member functions are collective.

@@ -44,7 +44,7 @@ private:
   /// A body among the nodes that are sent.
   struct SentBody {
     std::size_t item;
-    int place;   ///< of its attitude's unknowns in the vectors
+    Unknown place;   ///< of its attitude's unknowns in the vectors
     int unknowns;
   };
 
@@ -52,7 +52,7 @@ private:
 
   bool alone_ = true;
   bool with_bodies_ = false;
-  std::vector<int> places_;   ///< of the sent nodes in the vectors
+  std::vector<Unknown> places_;   ///< of the sent nodes in the vectors
   std::vector<SentBody> sent_bodies_;
   Broadcast<NodeMotion> nodes_;
   Broadcast<bodies::RotationState> rotations_;

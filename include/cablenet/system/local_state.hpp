@@ -29,11 +29,11 @@ struct LocalState {
   std::vector<double> v;           ///< [m/s]
   std::vector<double> a;           ///< [m/s^2]
 
-  static Eigen::Map<const Vector3> at(const std::vector<double>& values, int node) {
-    return Eigen::Map<const Vector3>(values.data() + 3 * static_cast<std::size_t>(node));
+  static Eigen::Map<const Vector3> at(const std::vector<double>& values, LocalNode node) {
+    return Eigen::Map<const Vector3>(values.data() + 3 * cablenet::at(node));
   }
-  static Eigen::Map<Vector3> at(std::vector<double>& values, int node) {
-    return Eigen::Map<Vector3>(values.data() + 3 * static_cast<std::size_t>(node));
+  static Eigen::Map<Vector3> at(std::vector<double>& values, LocalNode node) {
+    return Eigen::Map<Vector3>(values.data() + 3 * cablenet::at(node));
   }
   elements::Chord chord(const partition::LocalElement& e) const {
     return {at(x, e.node[1]) - at(x, e.node[0]), at(v, e.node[1]) - at(v, e.node[0])};
