@@ -17,27 +17,26 @@ void fetch(const double* values, int lines) {
 
 }   // namespace
 
-Elimination::Elimination(Schedule schedule, const std::function<BlockSource(int, int)>& where)
-    : schedule_(std::move(schedule)) {
-  sources_.reserve(schedule_.touched.size());
+Elimination::Elimination(Plan plan, const std::function<BlockSource(int, int)>& where) : plan_(std::move(plan)) {
+  sources_.reserve(plan_.touched.size());
   int most_later = 0;
-  for (int k = 0; k < schedule_.eliminated(); ++k) {
-    const int begin = schedule_.first_later[at(k)], end = schedule_.first_later[at(k) + 1];
+  for (int k = 0; k < plan_.eliminated(); ++k) {
+    const int begin = plan_.first_later[at(k)], end = plan_.first_later[at(k) + 1];
     add_source(where(k, k));
     for (int i = begin; i < end; ++i) {
-      if (!schedule_.symmetric) add_source(where(k, schedule_.later[at(i)]));
-      add_source(where(schedule_.later[at(i)], k));
+      if (!plan_.symmetric) add_source(where(k, plan_.later[at(i)]));
+      add_source(where(plan_.later[at(i)], k));
     }
     most_later = std::max(most_later, end - begin);
   }
-  std::vector<bool>().swap(schedule_.touched);
-  values_.resize(at(schedule_.values));
+  std::vector<bool>().swap(plan_.touched);
+  values_.resize(at(plan_.values));
   column_.resize(9 * at(most_later));
-  if (!schedule_.uniform) prepare_mixed();
+  if (!plan_.uniform) prepare_mixed();
 }
 
 void Elimination::add_source(BlockSource source) {
-  source.touched = schedule_.touched[sources_.size()];
+  source.touched = plan_.touched[sources_.size()];
   sources_.push_back(source);
 }
 
@@ -48,12 +47,12 @@ void Elimination::visit_forward(Run&& run, Step&& step) const {
     if (!run(begin, large.block) || !step(large)) return;
     begin = large.block + 1;
   }
-  run(begin, schedule_.eliminated());
+  run(begin, plan_.eliminated());
 }
 
 template <class Run, class Step>
 void Elimination::visit_backward(Run&& run, Step&& step) const {
-  int end = schedule_.eliminated();
+  int end = plan_.eliminated();
   for (auto large = large_.rbegin(); large != large_.rend(); ++large) {
     run(large->block + 1, end);
     step(*large);
@@ -63,12 +62,12 @@ void Elimination::visit_backward(Run&& run, Step&& step) const {
 }
 
 Pivots Elimination::factor(const Arrays& arrays) {
-  std::fill(values_.begin() + schedule_.kept_values, values_.end(), 0.0);
+  std::fill(values_.begin() + plan_.kept_values, values_.end(), 0.0);
   Pivots pivots;
-  const std::int64_t* target = schedule_.targets.data();
+  const std::int64_t* target = plan_.targets.data();
   const auto run = [&](int begin, int end) {
-    const int reached = schedule_.symmetric ? factor_run<true>(begin, end, arrays, target, pivots.negative)
-                                            : factor_run<false>(begin, end, arrays, target, pivots.negative);
+    const int reached = plan_.symmetric ? factor_run<true>(begin, end, arrays, target, pivots.negative)
+                                        : factor_run<false>(begin, end, arrays, target, pivots.negative);
     if (reached < end) pivots.singular = reached;
     return reached == end;
   };
@@ -86,15 +85,15 @@ template <bool symmetric>
 int Elimination::factor_run(int begin, int end, const Arrays& arrays, const std::int64_t*& next_target,
                             int& all_negative) {
   double* const values = values_.data();
-  const int couplings = schedule_.first_later[at(begin)];
-  double* pivot = values + schedule_.pivot(begin);
-  double* lower = values + schedule_.lower_values + schedule_.coupling(couplings);
-  double* upper = symmetric ? column_.data() : values + schedule_.upper_values + schedule_.coupling(couplings);
+  const int couplings = plan_.first_later[at(begin)];
+  double* pivot = values + plan_.pivot(begin);
+  double* lower = values + plan_.lower_values + plan_.coupling(couplings);
+  double* upper = symmetric ? column_.data() : values + plan_.upper_values + plan_.coupling(couplings);
   const std::int64_t* target = next_target;
   const BlockSource* source = sources_.data() + begin + (symmetric ? 1 : 2) * std::ptrdiff_t{couplings};
   int k = begin;
   for (; k < end; ++k, pivot += 9) {
-    const int count = schedule_.first_later[at(k) + 1] - schedule_.first_later[at(k)];
+    const int count = plan_.first_later[at(k) + 1] - plan_.first_later[at(k)];
     fetch(arrays[source->array] + source->offset + 27 * ahead, 4);
     for (const double* to : {pivot, lower, upper}) fetch(to + 9 * ahead, 1);
     load_block(pivot, *source++, arrays);
@@ -119,23 +118,23 @@ int Elimination::factor_run(int begin, int end, const Arrays& arrays, const std:
 
 template <bool mixed>
 void Elimination::forward_run(int begin, int end, double* w, double* shifted) {
-  const int* first = schedule_.first_later.data();
-  const double* lower = values_.data() + schedule_.lower_values + schedule_.coupling(first[begin]);
-  const int* later = schedule_.later.data() + first[begin];
+  const int* first = plan_.first_later.data();
+  const double* lower = values_.data() + plan_.lower_values + plan_.coupling(first[begin]);
+  const int* later = plan_.later.data() + first[begin];
   const double* own = w + unknown<mixed>(begin);
   for (int k = begin; k < end; ++k, own += 3) {
     fetch(lower + 9 * ahead, 2);
     for (int i = first[k]; i < first[k + 1]; ++i, ++later, lower += 9)
-      subtract_product((*later < schedule_.eliminated() ? w : shifted) + unknown<mixed>(*later), lower, own);
+      subtract_product((*later < plan_.eliminated() ? w : shifted) + unknown<mixed>(*later), lower, own);
   }
 }
 
 template <bool symmetric, bool mixed>
 void Elimination::backward_run(int begin, int end, double* w, const double* shifted) {
-  const int* const first = schedule_.first_later.data();
-  const std::int64_t regions = symmetric ? schedule_.lower_values : schedule_.upper_values;
-  const double* const coupling = values_.data() + regions + schedule_.coupling(first[begin]);
-  const double* pivot = values_.data() + schedule_.pivot(begin) + 9 * std::ptrdiff_t{end - begin};
+  const int* const first = plan_.first_later.data();
+  const std::int64_t regions = symmetric ? plan_.lower_values : plan_.upper_values;
+  const double* const coupling = values_.data() + regions + plan_.coupling(first[begin]);
+  const double* pivot = values_.data() + plan_.pivot(begin) + 9 * std::ptrdiff_t{end - begin};
   double* own = w + unknown<mixed>(begin) + 3 * std::ptrdiff_t{end - begin};
   for (int k = end - 1; k >= begin; --k) {
     pivot -= 9;
@@ -144,8 +143,8 @@ void Elimination::backward_run(int begin, int end, double* w, const double* shif
     fetch(coupling + 9 * (first[k] - first[begin] - ahead), 2);
     if constexpr (symmetric) divide_left(own, pivot);
     for (std::ptrdiff_t i = first[k]; i < first[k + 1]; ++i) {
-      const int j = schedule_.later[at(i)];
-      const double* const later = (j < schedule_.eliminated() ? w : shifted) + unknown<mixed>(j);
+      const int j = plan_.later[at(i)];
+      const double* const later = (j < plan_.eliminated() ? w : shifted) + unknown<mixed>(j);
       const double* const block = coupling + 9 * (i - first[begin]);
       if constexpr (symmetric)
         subtract_transposed_product(own, block, later);
@@ -157,13 +156,13 @@ void Elimination::backward_run(int begin, int end, double* w, const double* shif
 }
 
 std::ptrdiff_t Elimination::unknowns() const {
-  return schedule_.uniform ? unknown<false>(schedule_.eliminated()) : unknown<true>(schedule_.eliminated());
+  return plan_.uniform ? unknown<false>(plan_.eliminated()) : unknown<true>(plan_.eliminated());
 }
 
 void Elimination::forward(double* w, double* kept) {
   double* const shifted = kept - unknowns();
   const auto run = [&](int begin, int end) {
-    schedule_.uniform ? forward_run<false>(begin, end, w, shifted) : forward_run<true>(begin, end, w, shifted);
+    plan_.uniform ? forward_run<false>(begin, end, w, shifted) : forward_run<true>(begin, end, w, shifted);
     return true;
   };
   const auto step = [&](const Large& large) {
@@ -176,9 +175,9 @@ void Elimination::forward(double* w, double* kept) {
 void Elimination::backward(double* w, const double* kept) {
   const double* const shifted = kept - unknowns();
   const auto run = [&](int begin, int end) {
-    if (!schedule_.uniform) return backward_run<false, true>(begin, end, w, shifted);
-    schedule_.symmetric ? backward_run<true, false>(begin, end, w, shifted)
-                        : backward_run<false, false>(begin, end, w, shifted);
+    if (!plan_.uniform) return backward_run<false, true>(begin, end, w, shifted);
+    plan_.symmetric ? backward_run<true, false>(begin, end, w, shifted)
+                    : backward_run<false, false>(begin, end, w, shifted);
   };
   visit_backward(run, [&](const Large& large) { backward_large(large, w, shifted); });
 }

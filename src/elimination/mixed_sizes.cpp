@@ -36,16 +36,16 @@ void solve_pivot(double* w, const double* pivot, const int* origin, Own own) {
 
 void Elimination::prepare_mixed() {
   int unknown = 0, exchanges = 0;
-  for (const int size : schedule_.size) {
+  for (const int size : plan_.size) {
     begin_.push_back(unknown);
     unknown += size;
   }
   begin_.push_back(unknown);
-  for (int k = 0; k < schedule_.eliminated(); ++k) {
-    const int own = schedule_.size[at(k)];
-    const auto later = schedule_.later.begin();
-    if (own == 3 && std::all_of(later + schedule_.first_later[at(k)], later + schedule_.first_later[at(k) + 1],
-                                [this](int j) { return schedule_.size[at(j)] == 3; }))
+  for (int k = 0; k < plan_.eliminated(); ++k) {
+    const int own = plan_.size[at(k)];
+    const auto later = plan_.later.begin();
+    if (own == 3 && std::all_of(later + plan_.first_later[at(k)], later + plan_.first_later[at(k) + 1],
+                                [this](int j) { return plan_.size[at(j)] == 3; }))
       continue;
     large_.push_back({k, exchanges});
     if (own != 3) exchanges += own;
@@ -55,34 +55,34 @@ void Elimination::prepare_mixed() {
 
 template <class Visit>
 void Elimination::visit_later(int k, Visit&& visit) {
-  for (int i = schedule_.first_later[at(k)]; i < schedule_.first_later[at(k) + 1]; ++i) {
-    double* const upper = values_.data() + schedule_.upper_values + schedule_.coupling(i);
-    double* const lower = values_.data() + schedule_.lower_values + schedule_.coupling(i);
-    visit(upper, lower, schedule_.later[at(i)]);
+  for (int i = plan_.first_later[at(k)]; i < plan_.first_later[at(k) + 1]; ++i) {
+    double* const upper = values_.data() + plan_.upper_values + plan_.coupling(i);
+    double* const lower = values_.data() + plan_.lower_values + plan_.coupling(i);
+    visit(upper, lower, plan_.later[at(i)]);
   }
 }
 
 template <class Own>
 int Elimination::factor_step(const Large& step, Own own, const Arrays& arrays, const std::int64_t*& target) {
   const int k = step.block;
-  double* const pivot = values_.data() + schedule_.pivot(k);
+  double* const pivot = values_.data() + plan_.pivot(k);
   int* const origin = origins_.data() + step.origins;
-  const BlockSource* source = sources_.data() + k + 2 * std::ptrdiff_t{schedule_.first_later[at(k)]};
+  const BlockSource* source = sources_.data() + k + 2 * std::ptrdiff_t{plan_.first_later[at(k)]};
   load_block(pivot, *source++, arrays, own, own);
   const int negative = factor_pivot(pivot, origin, own);
   if (negative < 0) return negative;
   visit_later(k, [&](double* upper, double* lower, int j) {
-    with_size(schedule_.size[at(j)], [&](auto size) {
+    with_size(plan_.size[at(j)], [&](auto size) {
       load_block(upper, *source++, arrays, own, size);
       load_block(lower, *source++, arrays, size, own);
       divide_by_pivot(lower, pivot, origin, size, own);
     });
   });
   visit_later(k, [&](double*, double* lower, int i) {
-    with_size(schedule_.size[at(i)], [&](auto rows) {
+    with_size(plan_.size[at(i)], [&](auto rows) {
       visit_later(k, [&](double* upper, double*, int j) {
         const std::int64_t place = *target++;
-        with_size(schedule_.size[at(j)], [&](auto columns) {
+        with_size(plan_.size[at(j)], [&](auto columns) {
           update_block(values_.data() + (place < 0 ? ~place : place), place < 0, lower, upper, rows, own, columns);
         });
       });
@@ -93,28 +93,28 @@ int Elimination::factor_step(const Large& step, Own own, const Arrays& arrays, c
 
 int Elimination::factor_large(const Large& step, const Arrays& arrays, const std::int64_t*& target) {
   int negative = 0;
-  with_size(schedule_.size[at(step.block)], [&](auto own) { negative = factor_step(step, own, arrays, target); });
+  with_size(plan_.size[at(step.block)], [&](auto own) { negative = factor_step(step, own, arrays, target); });
   return negative;
 }
 
 void Elimination::forward_large(const Large& step, double* w, double* shifted) {
   const double* const mine = w + begin_[at(step.block)];
-  with_size(schedule_.size[at(step.block)], [&](auto own) {
+  with_size(plan_.size[at(step.block)], [&](auto own) {
     visit_later(step.block, [&](double*, double* lower, int j) {
-      double* const to = (j < schedule_.eliminated() ? w : shifted) + begin_[at(j)];
-      with_size(schedule_.size[at(j)], [&](auto size) { subtract_product(to, lower, mine, size, own); });
+      double* const to = (j < plan_.eliminated() ? w : shifted) + begin_[at(j)];
+      with_size(plan_.size[at(j)], [&](auto size) { subtract_product(to, lower, mine, size, own); });
     });
   });
 }
 
 void Elimination::backward_large(const Large& step, double* w, const double* shifted) {
   double* const mine = w + begin_[at(step.block)];
-  with_size(schedule_.size[at(step.block)], [&](auto own) {
+  with_size(plan_.size[at(step.block)], [&](auto own) {
     visit_later(step.block, [&](double* upper, double*, int j) {
-      const double* const from = (j < schedule_.eliminated() ? w : shifted) + begin_[at(j)];
-      with_size(schedule_.size[at(j)], [&](auto size) { subtract_product(mine, upper, from, own, size); });
+      const double* const from = (j < plan_.eliminated() ? w : shifted) + begin_[at(j)];
+      with_size(plan_.size[at(j)], [&](auto size) { subtract_product(mine, upper, from, own, size); });
     });
-    solve_pivot(mine, values_.data() + schedule_.pivot(step.block), origins_.data() + step.origins, own);
+    solve_pivot(mine, values_.data() + plan_.pivot(step.block), origins_.data() + step.origins, own);
   });
 }
 

@@ -29,9 +29,9 @@ std::vector<int> dissect(const Graph& graph) {
 
 /// A graph that shrinks as its vertices of at most two neighbours are eliminated.  That never makes a neighbour list
 /// longer, so it happens in place; `twin_` leads from each entry to the entry for the same edge at its other end.
-class Elimination {
+class OrderFinder {
 public:
-  Elimination(const Graph& graph, const std::vector<bool>& kept)
+  OrderFinder(const Graph& graph, const std::vector<bool>& kept)
       : graph_(simple_graph(graph)), twin_(graph_.adjacent.size()), degree_(at(graph_.vertices()), 0), held_(kept) {
     held_.resize(degree_.size(), false);
     order_.reserve(degree_.size());
@@ -244,18 +244,18 @@ int count_loops(const Graph& graph) {
 }
 
 std::vector<int> elimination_order(const Graph& graph, const std::vector<bool>& kept) {
-  Elimination elimination(graph, kept);
-  elimination.peel_leaves();
-  elimination.contract_paths();
-  elimination.dissect_rest();
-  return elimination.take_order();
+  OrderFinder finder(graph, kept);
+  finder.peel_leaves();
+  finder.contract_paths();
+  finder.dissect_rest();
+  return finder.take_order();
 }
 
 std::vector<bool> unpeeled(const Graph& graph, const std::vector<bool>& kept) {
-  Elimination elimination(graph, kept);
-  elimination.peel_leaves();
+  OrderFinder finder(graph, kept);
+  finder.peel_leaves();
   std::vector<bool> stays(at(graph.vertices()), true);
-  for (const int v : elimination.take_order()) stays[at(v)] = false;
+  for (const int v : finder.take_order()) stays[at(v)] = false;
   return stays;
 }
 

@@ -31,10 +31,9 @@ elimination::Pattern InterfaceSystem::pattern(const partition::Interface& interf
   return {std::move(size), nodes, nodes == 0 ? std::vector<int>{0} : interface.graph.first, interface.graph.adjacent};
 }
 
-InterfaceSystem::InterfaceSystem(const partition::Interface& interface, elimination::Schedule schedule,
-                                 MPI_Comm communicator)
+InterfaceSystem::InterfaceSystem(const partition::Interface& interface, elimination::Plan plan, MPI_Comm communicator)
     : communicator_(communicator), rows_(rows_of(interface.graph)), begin_(1, 0) {
-  for (const int size : schedule.size) begin_.push_back(*(begin_.end() - 1) + at(size));
+  for (const int size : plan.size) begin_.push_back(*(begin_.end() - 1) + at(size));
   failures_ = *(begin_.end() - 1);
   std::size_t values = failures_ + 1;
   for (int row = 0; row < rows_.vertices(); ++row)
@@ -50,7 +49,7 @@ InterfaceSystem::InterfaceSystem(const partition::Interface& interface, eliminat
     if (!std::binary_search(first, last, j)) return elimination::BlockSource{};
     return elimination::block_source(static_cast<int>(place(row, column).begin), size(column), 0);
   };
-  elimination_ = std::make_unique<elimination::Elimination>(std::move(schedule), where);
+  elimination_ = std::make_unique<elimination::Elimination>(std::move(plan), where);
 }
 
 InterfaceSystem::Place InterfaceSystem::place(InterfaceNode row, InterfaceNode column) const {

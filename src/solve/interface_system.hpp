@@ -16,8 +16,8 @@ using InterfaceNode = Index<struct InterfaceNodeSpace>;
 /// each of them by the same elimination.
 class InterfaceSystem {
 public:
-  /// @pre the schedule is that of pattern(interface)
-  InterfaceSystem(const partition::Interface& interface, elimination::Schedule schedule, MPI_Comm communicator);
+  /// @pre the plan is that of pattern(interface)
+  InterfaceSystem(const partition::Interface& interface, elimination::Plan plan, MPI_Comm communicator);
 
   /// @param blocks  by solver number
   static elimination::Pattern pattern(const partition::Interface& interface, const partition::Blocks& blocks);

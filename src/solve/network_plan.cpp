@@ -95,11 +95,11 @@ elimination::BlockSource NetworkPc::Impl::source(int row, int column) {
 bool NetworkPc::Impl::plan(const partition::LocalNetwork& network, double most_per_node) {
   const double nodes = std::max(1.0, static_cast<double>(sizes_.begin(SolverNumber(sizes_.count()))) / 3 / ranks());
   const bool listed = network.interface.graph.vertices() == static_cast<int>(numbers_.size());
-  std::optional<elimination::Schedule> own, shared;
-  if (listed) own = elimination::make_schedule(pattern(), symmetric_, most_per_node * nodes);
+  std::optional<elimination::Plan> own, shared;
+  if (listed) own = elimination::make_plan(pattern(), symmetric_, most_per_node * nodes);
   if (own)
-    shared = elimination::make_schedule(InterfaceSystem::pattern(network.interface, sizes_), symmetric_,
-                                        most_per_node * nodes - own->updates);
+    shared = elimination::make_plan(InterfaceSystem::pattern(network.interface, sizes_), symmetric_,
+                                    most_per_node * nodes - own->updates);
   updates_per_node_ = shared ? (own->updates + shared->updates) / nodes : std::numeric_limits<double>::infinity();
   MPI_Allreduce(MPI_IN_PLACE, &updates_per_node_, 1, MPI_DOUBLE, MPI_MAX, communicator_);
   if (updates_per_node_ > most_per_node) return false;
@@ -121,7 +121,7 @@ void NetworkPc::Impl::find_shares() {
         own_shares_.push_back({from, interface_->place(own_interface_.back(), found->second)});
     });
   }
-  for (const auto& block : elimination_->schedule().kept) {
+  for (const auto& block : elimination_->plan().kept) {
     const InterfaceNode row = kept_[at(block.row - interior_)], column = kept_[at(block.column - interior_)];
     const InterfaceSystem::Place place = interface_->place(row, column);
     const double* const update = elimination_->update(block);

@@ -51,7 +51,7 @@ struct System {
     return source;
   }
   Elimination elimination(bool symmetric) const {
-    return {*make_schedule(pattern(), symmetric), [this](int i, int j) { return source(i, j); }};
+    return {*make_plan(pattern(), symmetric), [this](int i, int j) { return source(i, j); }};
   }
 };
 
@@ -82,12 +82,12 @@ Eigen::VectorXd solve(const System& s, bool symmetric, const Eigen::VectorXd& b)
     EXPECT_EQ(elimination.factor({s.matrix.data(), nullptr, nullptr}).singular, -1);
     const int first = s.begin(s.eliminated), count = s.unknowns() - first;
     Dense kept = s.matrix.bottomRightCorner(count, count);
-    for (const Schedule::Kept& block : elimination.schedule().kept) {
+    for (const Plan::Kept& block : elimination.plan().kept) {
       const int rows = s.size[at(block.row)], columns = s.size[at(block.column)];
       const Eigen::Map<const Dense> update(elimination.update(block), rows, columns);
       const int i = s.begin(block.row) - first, j = s.begin(block.column) - first;
       kept.block(i, j, rows, columns) += update;
-      if (elimination.schedule().symmetric && i != j) kept.block(j, i, columns, rows) += update.transpose();
+      if (elimination.plan().symmetric && i != j) kept.block(j, i, columns, rows) += update.transpose();
     }
     w = b;
     elimination.forward(w.data(), w.data() + first);
@@ -196,7 +196,7 @@ TEST_P(EliminationOf, ReadsSymmetricSourcesFromTheOtherTriangle) {
     source.transposed = 1;
     return source;
   };
-  Elimination direct = s.elimination(true), other(*make_schedule(s.pattern(), true), transposed);
+  Elimination direct = s.elimination(true), other(*make_plan(s.pattern(), true), transposed);
   Eigen::VectorXd w = random_vector(s.unknowns()), v = w;
   direct.factor({s.matrix.data(), nullptr, nullptr});
   other.factor({s.matrix.data(), nullptr, nullptr});
@@ -279,15 +279,15 @@ TEST(Elimination, CountsWhetherABodyHasAnOddNumberOfNegativeEigenvalues) {
   EXPECT_EQ(s.elimination(false).factor({s.matrix.data(), nullptr, nullptr}).negative, 3 + 1 + 0 + 1 + 1);
 }
 
-TEST(Schedule, CountsItsWorkAndGivesUpBeyondTheLimit) {
+TEST(Plan, CountsItsWorkAndGivesUpBeyondTheLimit) {
   const System s = random_system(std::vector<int>(7, 3), 7, tree, false);
-  EXPECT_EQ(make_schedule(s.pattern(), false)->updates, 6);
-  EXPECT_EQ(make_schedule(s.pattern(), false)->later.size(), 6u);
-  EXPECT_FALSE(make_schedule(s.pattern(), false, 5).has_value());
-  EXPECT_THROW(make_schedule({{8}, 1, {0, 0}, {}}, false), std::invalid_argument);
+  EXPECT_EQ(make_plan(s.pattern(), false)->updates, 6);
+  EXPECT_EQ(make_plan(s.pattern(), false)->later.size(), 6u);
+  EXPECT_FALSE(make_plan(s.pattern(), false, 5).has_value());
+  EXPECT_THROW(make_plan({{8}, 1, {0, 0}, {}}, false), std::invalid_argument);
 }
 
-TEST(Schedule, AStarCostsLinearlyInItsArms) {
+TEST(Plan, AStarCostsLinearlyInItsArms) {
   for (const int hub : {3, 7})
     for (const int arms : {100, 200})
       for (const bool kept : {false, true}) {
@@ -296,6 +296,6 @@ TEST(Schedule, AStarCostsLinearlyInItsArms) {
         std::vector<int> size(at(arms), 3);
         size.push_back(hub);
         const System s{size, kept ? arms : arms + 1, star, {}};
-        EXPECT_NEAR(make_schedule(s.pattern(), false)->updates, arms * hub * hub / 9.0, 1e-9);
+        EXPECT_NEAR(make_plan(s.pattern(), false)->updates, arms * hub * hub / 9.0, 1e-9);
       }
 }

@@ -65,10 +65,9 @@ struct System {
     pattern.first.resize(at(eliminated) + 1);
     pattern.adjacent = sorted.adjacent;
     fill_matrix(sorted);
-    auto schedule = *cablenet::elimination::make_schedule(pattern, false);
-    updates = schedule.updates;
-    elimination =
-        std::make_unique<Elimination>(std::move(schedule), [&](int i, int j) { return source(sorted, i, j); });
+    auto plan = *cablenet::elimination::make_plan(pattern, false);
+    updates = plan.updates;
+    elimination = std::make_unique<Elimination>(std::move(plan), [&](int i, int j) { return source(sorted, i, j); });
     w.assign(3 * at(eliminated), 1);
     kept.assign(3 * (order.size() - at(eliminated)), 0);
   }

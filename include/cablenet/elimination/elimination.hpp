@@ -4,9 +4,9 @@
 #include <functional>
 #include <vector>
 
-#include "cablenet/elimination/schedule.hpp"
+#include "cablenet/elimination/plan.hpp"
 
-/// Direct solution of a network's linear systems: L U (L D L^T where symmetric) of small dense blocks along a schedule.
+/// Direct solution of a network's linear systems: L U (L D L^T where symmetric) of small dense blocks along a plan.
 /// Pivot blocks are factored, never inverted: their condition is that of axial over transverse stiffness, up to 1e10,
 /// and an inverse would lose as many digits.  3x3 pivots are taken as they come, larger ones with row exchanges.
 /// Tests: tests/unit/elimination_test.cpp
@@ -41,14 +41,14 @@ struct Pivots {
 class Elimination {
 public:
   /// @param where  asked for each block (row, column) of the eliminated blocks' rows and columns
-  Elimination(Schedule schedule, const std::function<BlockSource(int row, int column)>& where);
+  Elimination(Plan plan, const std::function<BlockSource(int row, int column)>& where);
 
-  const Schedule& schedule() const { return schedule_; }
+  const Plan& plan() const { return plan_; }
 
   /// Factors the matrix whose entries stand in `arrays`, and what it takes from the kept blocks' couplings.
   Pivots factor(const Arrays& arrays);
   /// What factor() adds to a coupling of kept blocks, row-major.
-  const double* update(const Schedule::Kept& kept) const { return values_.data() + kept.values; }
+  const double* update(const Plan::Kept& kept) const { return values_.data() + kept.values; }
 
   /// Eliminates from a right-hand side of the eliminated blocks, in place; adds the kept system's part to `kept`.
   void forward(double* w, double* kept);
@@ -95,7 +95,7 @@ private:
   template <class Visit>
   void visit_later(int k, Visit&& visit);
 
-  Schedule schedule_;
+  Plan plan_;
   std::vector<BlockSource> sources_;   ///< in the order of factoring
   std::vector<double> values_;
   std::vector<Large> large_;

@@ -1,4 +1,4 @@
-#include "cablenet/elimination/schedule.hpp"
+#include "cablenet/elimination/plan.hpp"
 
 #include <algorithm>
 #include <map>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double products_in_block = 27;   // of two 3x3 blocks
 
-/// Lays the schedule down; later neighbours come from the elimination tree: a block hands its own to the first of them.
+/// Lays the plan down; later neighbours come from the elimination tree: a block hands its own to the first of them.
 class Planner {
 public:
   Planner(const Pattern& pattern, bool symmetric) : pattern_(pattern) {
@@ -22,7 +22,7 @@ public:
       throw std::invalid_argument("a block of unknowns is empty or too large to be eliminated");
   }
 
-  std::optional<Schedule> plan(double most_updates) {
+  std::optional<Plan> make(double most_updates) {
     if (!find_later_neighbours(most_updates)) return std::nullopt;
     place_values();
     for (int k = 0; k < pattern_.eliminated; ++k) place_updates(k);
@@ -43,7 +43,7 @@ private:
   std::int64_t kept_place(int row, int column);
 
   const Pattern& pattern_;
-  Schedule plan_;
+  Plan plan_;
   std::vector<int> first_child_, next_sibling_, seen_by_;
   std::map<std::pair<int, int>, std::int64_t> kept_;
 };
@@ -145,8 +145,8 @@ void Planner::place_updates(int k) {
 
 }   // namespace
 
-std::optional<Schedule> make_schedule(const Pattern& pattern, bool symmetric, double most_updates) {
-  return Planner(pattern, symmetric).plan(most_updates);
+std::optional<Plan> make_plan(const Pattern& pattern, bool symmetric, double most_updates) {
+  return Planner(pattern, symmetric).make(most_updates);
 }
 
 }   // namespace cablenet::elimination

@@ -26,7 +26,7 @@ struct Pattern {
 /// (k, k), then for each coupling of a block k with a later neighbour j the blocks (k, j), unless symmetric, and (j,
 /// k), then the couplings (i, j) of kept blocks that the elimination changes, where symmetric those with i >= j.  All
 /// blocks are row-major.
-struct Schedule {
+struct Plan {
   /// A coupling of two kept blocks that the elimination changes.
   struct Kept {
     int row, column;
@@ -59,7 +59,7 @@ struct Schedule {
 
 /// @param symmetric  taken up where all blocks are 3x3
 /// @returns nothing if a factorisation takes more than `most_updates` block products.
-std::optional<Schedule> make_schedule(const Pattern& pattern, bool symmetric,
-                                      double most_updates = std::numeric_limits<double>::infinity());
+std::optional<Plan> make_plan(const Pattern& pattern, bool symmetric,
+                              double most_updates = std::numeric_limits<double>::infinity());
 
 }   // namespace cablenet::elimination
