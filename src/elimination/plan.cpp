@@ -13,19 +13,18 @@ constexpr double products_in_block = 27;   // of two 3x3 blocks
 /// Lays the plan down; later neighbours come from the elimination tree: a block hands its own to the first of them.
 class Planner {
 public:
-  Planner(const Pattern& pattern, bool symmetric) : pattern_(pattern) {
-    plan_.size = pattern.size;
-    plan_.uniform = std::all_of(pattern.size.begin(), pattern.size.end(), [](int size) { return size == 3; });
+  Planner(const BlockGraph& graph, bool symmetric) : graph_(graph) {
+    plan_.size = graph.size;
+    plan_.uniform = std::all_of(graph.size.begin(), graph.size.end(), [](int size) { return size == 3; });
     plan_.symmetric = symmetric && plan_.uniform;
-    if (std::any_of(pattern.size.begin(), pattern.size.end(),
-                    [](int size) { return size < 1 || size > largest_block; }))
+    if (std::any_of(graph.size.begin(), graph.size.end(), [](int size) { return size < 1 || size > largest_block; }))
       throw std::invalid_argument("a block of unknowns is empty or too large to be eliminated");
   }
 
   std::optional<Plan> make(double most_updates) {
     if (!find_later_neighbours(most_updates)) return std::nullopt;
     place_values();
-    for (int k = 0; k < pattern_.eliminated; ++k) place_updates(k);
+    for (int k = 0; k < graph_.eliminated; ++k) place_updates(k);
     return std::move(plan_);
   }
 
@@ -42,7 +41,7 @@ private:
   std::int64_t number(int k, int coupling) const { return k + std::int64_t{plan_.symmetric ? 1 : 2} * coupling; }
   std::int64_t kept_place(int row, int column);
 
-  const Pattern& pattern_;
+  const BlockGraph& graph_;
   Plan plan_;
   std::vector<int> first_child_, next_sibling_, seen_by_;
   std::map<std::pair<int, int>, std::int64_t> kept_;
@@ -55,23 +54,23 @@ void Planner::collect(int k, std::vector<int>& found) {
     seen_by_[at(j)] = k;
     found.push_back(j);
   };
-  for (int i = pattern_.first[at(k)]; i < pattern_.first[at(k) + 1]; ++i) add(pattern_.adjacent[at(i)]);
+  for (int i = graph_.first[at(k)]; i < graph_.first[at(k) + 1]; ++i) add(graph_.adjacent[at(i)]);
   for (int child = first_child_[at(k)]; child >= 0; child = next_sibling_[at(child)])
     for (int i = plan_.first_later[at(child)]; i < plan_.first_later[at(child) + 1]; ++i) add(plan_.later[at(i)]);
   std::sort(found.begin(), found.end());
 }
 
 bool Planner::find_later_neighbours(double most_updates) {
-  const std::size_t count = at(pattern_.eliminated);
+  const std::size_t count = at(graph_.eliminated);
   first_child_.assign(count, -1);
   next_sibling_.assign(count, -1);
-  seen_by_.assign(pattern_.size.size(), -1);
+  seen_by_.assign(graph_.size.size(), -1);
   plan_.first_later.assign(1, 0);
   plan_.first_later.reserve(count + 1);
   plan_.later.reserve(count);
   std::vector<int> found;
   double products = 0;
-  for (int k = 0; k < pattern_.eliminated; ++k) {
+  for (int k = 0; k < graph_.eliminated; ++k) {
     collect(k, found);
     plan_.later.insert(plan_.later.end(), found.begin(), found.end());
     plan_.first_later.push_back(static_cast<int>(plan_.later.size()));
@@ -80,7 +79,7 @@ bool Planner::find_later_neighbours(double most_updates) {
     const double m = unknowns;
     products += plan_.size[at(k)] * (plan_.symmetric ? m * (m + 3) / 2 : m * m);
     if (products > most_updates * products_in_block) return false;
-    if (found.empty() || found.front() >= pattern_.eliminated) continue;
+    if (found.empty() || found.front() >= graph_.eliminated) continue;
     next_sibling_[at(k)] = first_child_[at(found.front())];
     first_child_[at(found.front())] = k;
   }
@@ -89,11 +88,11 @@ bool Planner::find_later_neighbours(double most_updates) {
 }
 
 void Planner::place_values() {
-  const std::int64_t blocks = pattern_.eliminated, couplings = static_cast<std::int64_t>(plan_.later.size());
+  const std::int64_t blocks = graph_.eliminated, couplings = static_cast<std::int64_t>(plan_.later.size());
   std::int64_t pivots = 9 * blocks, one_side = 9 * couplings;
   if (!plan_.uniform) {
     pivots = one_side = 0;
-    for (int k = 0; k < pattern_.eliminated; ++k) {
+    for (int k = 0; k < graph_.eliminated; ++k) {
       plan_.mixed_pivots.push_back(pivots);
       pivots += plan_.size[at(k)] * plan_.size[at(k)];
       for (int i = plan_.first_later[at(k)]; i < plan_.first_later[at(k) + 1]; ++i) {
@@ -107,7 +106,7 @@ void Planner::place_values() {
   plan_.upper_values = pivots;
   plan_.lower_values = pivots + (plan_.symmetric ? 0 : one_side);
   plan_.kept_values = plan_.values = plan_.lower_values + one_side;
-  plan_.touched.assign(at(number(pattern_.eliminated, static_cast<int>(couplings))), false);
+  plan_.touched.assign(at(number(graph_.eliminated, static_cast<int>(couplings))), false);
 }
 
 std::int64_t Planner::kept_place(int row, int column) {
@@ -121,7 +120,7 @@ std::int64_t Planner::kept_place(int row, int column) {
 
 Planner::Found Planner::find(int row, int column) {
   const int owner = std::min(row, column);
-  if (owner >= pattern_.eliminated) return {kept_place(row, column), -1};
+  if (owner >= graph_.eliminated) return {kept_place(row, column), -1};
   if (row == column) return {plan_.pivot(row), number(row, plan_.first_later[at(row)])};
   const auto begin = plan_.later.begin() + plan_.first_later[at(owner)];
   const auto end = plan_.later.begin() + plan_.first_later[at(owner) + 1];
@@ -145,8 +144,8 @@ void Planner::place_updates(int k) {
 
 }   // namespace
 
-std::optional<Plan> make_plan(const Pattern& pattern, bool symmetric, double most_updates) {
-  return Planner(pattern, symmetric).make(most_updates);
+std::optional<Plan> make_plan(const BlockGraph& graph, bool symmetric, double most_updates) {
+  return Planner(graph, symmetric).make(most_updates);
 }
 
 }   // namespace cablenet::elimination

@@ -24,7 +24,8 @@ partition::Graph rows_of(const partition::Graph& graph) {
 
 }   // namespace
 
-elimination::Pattern InterfaceSystem::pattern(const partition::Interface& interface, const partition::Blocks& blocks) {
+elimination::BlockGraph InterfaceSystem::block_graph(const partition::Interface& interface,
+                                                     const partition::Blocks& blocks) {
   std::vector<int> size;
   for (const SolverNumber number : interface.number) size.push_back(blocks.size(number));
   const int nodes = static_cast<int>(size.size());

@@ -16,11 +16,11 @@ using InterfaceNode = Index<struct InterfaceNodeSpace>;
 /// each of them by the same elimination.
 class InterfaceSystem {
 public:
-  /// @pre the plan is that of pattern(interface)
+  /// @pre the plan is that of block_graph(interface)
   InterfaceSystem(const partition::Interface& interface, elimination::Plan plan, MPI_Comm communicator);
 
   /// @param blocks  by solver number
-  static elimination::Pattern pattern(const partition::Interface& interface, const partition::Blocks& blocks);
+  static elimination::BlockGraph block_graph(const partition::Interface& interface, const partition::Blocks& blocks);
 
   /// Where a block of the matrix stands.
   struct Place {

@@ -23,7 +23,7 @@ public:
   PivotReport pivots() const;
 
 private:
-  elimination::Pattern pattern();
+  elimination::BlockGraph block_graph();
   void find_couplings();
   elimination::BlockSource source(int row, int column);
   int owner(SolverNumber number) const;

@@ -32,7 +32,7 @@ NetworkPc::Impl::Impl(const partition::LocalNetwork& network, Mat matrix)
   symmetric_ = petsc::is_known_symmetric(matrix) && sizes_.uniform();
 }
 
-elimination::Pattern NetworkPc::Impl::pattern() {
+elimination::BlockGraph NetworkPc::Impl::block_graph() {
   std::set<InterfaceNode> touched;
   const auto interface_node = [this](SolverNumber column) {
     const auto found = interface_node_.find(column);
@@ -52,14 +52,14 @@ elimination::Pattern NetworkPc::Impl::pattern() {
     const auto found = std::lower_bound(kept_.begin(), kept_.end(), interface_node(column));
     return interior_ + static_cast<int>(found - kept_.begin());
   };
-  elimination::Pattern pattern{std::vector<int>(at(interior_) + kept_.size(), 3), interior_, {0}, {}};
+  elimination::BlockGraph graph{std::vector<int>(at(interior_) + kept_.size(), 3), interior_, {0}, {}};
   if (!sizes_.uniform())
-    for (std::size_t k = 0; k < pattern.size.size(); ++k) pattern.size[k] = sizes_.size(number(static_cast<int>(k)));
+    for (std::size_t k = 0; k < graph.size.size(); ++k) graph.size[k] = sizes_.size(number(static_cast<int>(k)));
   for (int k = 0; k < interior_; ++k) {
-    blocks_.for_each(k, [&](SolverNumber column, const auto&) { pattern.adjacent.push_back(local(column)); });
-    pattern.first.push_back(static_cast<int>(pattern.adjacent.size()));
+    blocks_.for_each(k, [&](SolverNumber column, const auto&) { graph.adjacent.push_back(local(column)); });
+    graph.first.push_back(static_cast<int>(graph.adjacent.size()));
   }
-  return pattern;
+  return graph;
 }
 
 /// The rank that has a node's row.
@@ -96,9 +96,9 @@ bool NetworkPc::Impl::plan(const partition::LocalNetwork& network, double most_p
   const double nodes = std::max(1.0, static_cast<double>(sizes_.begin(SolverNumber(sizes_.count()))) / 3 / ranks());
   const bool listed = network.interface.graph.vertices() == static_cast<int>(numbers_.size());
   std::optional<elimination::Plan> own, shared;
-  if (listed) own = elimination::make_plan(pattern(), symmetric_, most_per_node * nodes);
+  if (listed) own = elimination::make_plan(block_graph(), symmetric_, most_per_node * nodes);
   if (own)
-    shared = elimination::make_plan(InterfaceSystem::pattern(network.interface, sizes_), symmetric_,
+    shared = elimination::make_plan(InterfaceSystem::block_graph(network.interface, sizes_), symmetric_,
                                     most_per_node * nodes - own->updates);
   updates_per_node_ = shared ? (own->updates + shared->updates) / nodes : std::numeric_limits<double>::infinity();
   MPI_Allreduce(MPI_IN_PLACE, &updates_per_node_, 1, MPI_DOUBLE, MPI_MAX, communicator_);

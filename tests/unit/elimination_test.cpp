@@ -33,14 +33,14 @@ struct System {
     return i == j || std::any_of(edges.begin(), edges.end(),
                                  [&](const auto& e) { return e == std::pair(i, j) || e == std::pair(j, i); });
   }
-  Pattern pattern() const {
-    Pattern pattern{size, eliminated, {0}, {}};
+  BlockGraph block_graph() const {
+    BlockGraph graph{size, eliminated, {0}, {}};
     for (int k = 0; k < eliminated; ++k) {
       for (int j = 0; j < static_cast<int>(size.size()); ++j)
-        if (coupled(k, j)) pattern.adjacent.push_back(j);
-      pattern.first.push_back(static_cast<int>(pattern.adjacent.size()));
+        if (coupled(k, j)) graph.adjacent.push_back(j);
+      graph.first.push_back(static_cast<int>(graph.adjacent.size()));
     }
-    return pattern;
+    return graph;
   }
   BlockSource source(int row, int column) const {
     if (!coupled(row, column)) return {};
@@ -51,7 +51,7 @@ struct System {
     return source;
   }
   Elimination elimination(bool symmetric) const {
-    return {*make_plan(pattern(), symmetric), [this](int i, int j) { return source(i, j); }};
+    return {*make_plan(block_graph(), symmetric), [this](int i, int j) { return source(i, j); }};
   }
 };
 
@@ -196,7 +196,7 @@ TEST_P(EliminationOf, ReadsSymmetricSourcesFromTheOtherTriangle) {
     source.transposed = 1;
     return source;
   };
-  Elimination direct = s.elimination(true), other(*make_plan(s.pattern(), true), transposed);
+  Elimination direct = s.elimination(true), other(*make_plan(s.block_graph(), true), transposed);
   Eigen::VectorXd w = random_vector(s.unknowns()), v = w;
   direct.factor({s.matrix.data(), nullptr, nullptr});
   other.factor({s.matrix.data(), nullptr, nullptr});
@@ -281,9 +281,9 @@ TEST(Elimination, CountsWhetherABodyHasAnOddNumberOfNegativeEigenvalues) {
 
 TEST(Plan, CountsItsWorkAndGivesUpBeyondTheLimit) {
   const System s = random_system(std::vector<int>(7, 3), 7, tree, false);
-  EXPECT_EQ(make_plan(s.pattern(), false)->updates, 6);
-  EXPECT_EQ(make_plan(s.pattern(), false)->later.size(), 6u);
-  EXPECT_FALSE(make_plan(s.pattern(), false, 5).has_value());
+  EXPECT_EQ(make_plan(s.block_graph(), false)->updates, 6);
+  EXPECT_EQ(make_plan(s.block_graph(), false)->later.size(), 6u);
+  EXPECT_FALSE(make_plan(s.block_graph(), false, 5).has_value());
   EXPECT_THROW(make_plan({{8}, 1, {0, 0}, {}}, false), std::invalid_argument);
 }
 
@@ -296,6 +296,6 @@ TEST(Plan, AStarCostsLinearlyInItsArms) {
         std::vector<int> size(at(arms), 3);
         size.push_back(hub);
         const System s{size, kept ? arms : arms + 1, star, {}};
-        EXPECT_NEAR(make_plan(s.pattern(), false)->updates, arms * hub * hub / 9.0, 1e-9);
+        EXPECT_NEAR(make_plan(s.block_graph(), false)->updates, arms * hub * hub / 9.0, 1e-9);
       }
 }

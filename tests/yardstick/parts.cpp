@@ -16,8 +16,8 @@
 namespace {
 
 using cablenet::at;
+using cablenet::elimination::BlockGraph;
 using cablenet::elimination::Elimination;
-using cablenet::elimination::Pattern;
 using cablenet::partition::Graph;
 
 /// Half the nodes on a trunk, the others on branches at even distances.
@@ -59,13 +59,13 @@ struct System {
     eliminated = static_cast<int>(order.size());
     for (int v = 0; v < part.vertices(); ++v)
       if (stays[at(v)]) order.push_back(v);
-    Pattern pattern{std::vector<int>(order.size(), 3), eliminated, {0}, {}};
+    BlockGraph coupled{std::vector<int>(order.size(), 3), eliminated, {0}, {}};
     const Graph sorted = cablenet::partition::subgraph(part, order);
-    pattern.first = sorted.first;
-    pattern.first.resize(at(eliminated) + 1);
-    pattern.adjacent = sorted.adjacent;
+    coupled.first = sorted.first;
+    coupled.first.resize(at(eliminated) + 1);
+    coupled.adjacent = sorted.adjacent;
     fill_matrix(sorted);
-    auto plan = *cablenet::elimination::make_plan(pattern, false);
+    auto plan = *cablenet::elimination::make_plan(coupled, false);
     updates = plan.updates;
     elimination = std::make_unique<Elimination>(std::move(plan), [&](int i, int j) { return source(sorted, i, j); });
     w.assign(3 * at(eliminated), 1);

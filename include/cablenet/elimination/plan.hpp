@@ -13,7 +13,7 @@ namespace cablenet::elimination {
 inline constexpr int largest_block = 7;
 
 /// Which blocks of unknowns are coupled.  Blocks 0 .. eliminated-1 are eliminated in this order, the others are kept.
-struct Pattern {
+struct BlockGraph {
   std::vector<int> size;   ///< unknowns of each block, 1 .. largest_block
   int eliminated = 0;
   /// Neighbours of eliminated block k: adjacent[first[k]] .. adjacent[first[k+1]-1], kept ones and itself may be among
@@ -59,7 +59,7 @@ struct Plan {
 
 /// @param symmetric  taken up where all blocks are 3x3
 /// @returns nothing if a factorisation takes more than `most_updates` block products.
-std::optional<Plan> make_plan(const Pattern& pattern, bool symmetric,
+std::optional<Plan> make_plan(const BlockGraph& graph, bool symmetric,
                               double most_updates = std::numeric_limits<double>::infinity());
 
 }   // namespace cablenet::elimination
