@@ -15,16 +15,16 @@ namespace cablenet::output {
 namespace {
 
 /// Owner of an HDF5 object that is not a file.
-class Handle {
+class Hdf5Object {
 public:
   using Close = herr_t (*)(hid_t);
-  Handle(hid_t id, Close how) : id_(id), close_(how) {}
+  Hdf5Object(hid_t id, Close how) : id_(id), close_(how) {}
   // While an exception passes, the object is left open: closing may write metadata and wait for the other ranks.
-  ~Handle() {
+  ~Hdf5Object() {
     if (id_ >= 0 && std::uncaught_exceptions() == 0) close_(id_);
   }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
+  Hdf5Object(const Hdf5Object&) = delete;
+  Hdf5Object& operator=(const Hdf5Object&) = delete;
 
   operator hid_t() const { return id_; }
   /// For objects whose closing may fail.
@@ -71,7 +71,7 @@ hid_t Hdf5File::check(hid_t result, std::string_view what) const {
 
 Hdf5File::Hdf5File(MPI_Comm communicator, const std::filesystem::path& path) : path_(path) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  const Handle access(check(H5Pcreate(H5P_FILE_ACCESS), "access list"), H5Pclose);
+  const Hdf5Object access(check(H5Pcreate(H5P_FILE_ACCESS), "access list"), H5Pclose);
   check(H5Pset_fapl_mpio(access, communicator, MPI_INFO_NULL), "MPI access");
   check(H5Pset_coll_metadata_write(access, true), "collective metadata");
   check(H5Pset_all_coll_metadata_ops(access, true), "collective metadata");
@@ -79,7 +79,7 @@ Hdf5File::Hdf5File(MPI_Comm communicator, const std::filesystem::path& path) : p
 }
 
 void Hdf5File::create_group(const std::string& name) {
-  Handle group(check(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), name), H5Gclose);
+  Hdf5Object group(check(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), name), H5Gclose);
   check(group.close(), name);
 }
 
@@ -100,20 +100,20 @@ void Hdf5File::write_block(const std::string& name, const Rows& rows, int column
   const Shape whole{static_cast<hsize_t>(rows.total), width};
   const Shape block{static_cast<hsize_t>(rows.local), width};
   const Shape start{static_cast<hsize_t>(rows.first), 0};
-  const Handle file_space(check(H5Screate_simple(rank, whole.data(), nullptr), name), H5Sclose);
-  const Handle memory_space(check(H5Screate_simple(rank, block.data(), nullptr), name), H5Sclose);
+  const Hdf5Object file_space(check(H5Screate_simple(rank, whole.data(), nullptr), name), H5Sclose);
+  const Hdf5Object memory_space(check(H5Screate_simple(rank, block.data(), nullptr), name), H5Sclose);
   if (rows.local > 0) {
     check(H5Sselect_hyperslab(file_space, H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr), name);
   } else {
     check(H5Sselect_none(file_space), name);
     check(H5Sselect_none(memory_space), name);
   }
-  const Handle creation(check(H5Pcreate(H5P_DATASET_CREATE), name), H5Pclose);
+  const Hdf5Object creation(check(H5Pcreate(H5P_DATASET_CREATE), name), H5Pclose);
   check(H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER), name);
-  const Handle transfer(check(H5Pcreate(H5P_DATASET_XFER), name), H5Pclose);
+  const Hdf5Object transfer(check(H5Pcreate(H5P_DATASET_XFER), name), H5Pclose);
   check(H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE), name);
-  Handle dataset(check(H5Dcreate2(file_, name.c_str(), type, file_space, H5P_DEFAULT, creation, H5P_DEFAULT), name),
-                 H5Dclose);
+  Hdf5Object dataset(check(H5Dcreate2(file_, name.c_str(), type, file_space, H5P_DEFAULT, creation, H5P_DEFAULT), name),
+                     H5Dclose);
   // A dataset without rows has no address that could be written to.
   if (rows.total > 0) check(H5Dwrite(dataset, type, memory_space, file_space, transfer, values), name);
   check(dataset.close(), name);
@@ -124,7 +124,7 @@ void Hdf5File::write_strings(const std::string& name, const Rows& rows, const st
   for (const auto& value : values) length = std::max(length, value.size());
   std::string padded;
   for (const auto& value : values) padded += value + std::string(length - value.size(), '\0');
-  const Handle type(check(string_type(length), name), H5Tclose);
+  const Hdf5Object type(check(string_type(length), name), H5Tclose);
   write_block(name, rows, one_dimensional, type, padded.data());
 }
 
@@ -138,13 +138,13 @@ void Hdf5File::set_attribute(const std::string& object, const std::string& name,
 
 void Hdf5File::set_attribute(const std::string& object, const std::string& name, std::string_view value) {
   const std::string terminated(value);
-  const Handle type(check(string_type(std::max<std::size_t>(1, value.size())), name), H5Tclose);
+  const Hdf5Object type(check(string_type(std::max<std::size_t>(1, value.size())), name), H5Tclose);
   write_attribute(object, name, type, terminated.c_str());
 }
 
 void Hdf5File::write_attribute(const std::string& object, const std::string& name, hid_t type, const void* value) {
-  const Handle space(check(H5Screate(H5S_SCALAR), name), H5Sclose);
-  Handle attribute(
+  const Hdf5Object space(check(H5Screate(H5S_SCALAR), name), H5Sclose);
+  Hdf5Object attribute(
       check(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
             name),
       H5Aclose);
