@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "cablenet/base/errors.hpp"
+#include "catalogue.hpp"
 #include "files.hpp"
 #include "hdf5_file.hpp"
-#include "index.hpp"
 #include "layout.hpp"
 
 namespace cablenet::output {
@@ -68,7 +68,7 @@ struct Series::Impl {
         nodes{mesh.nodes, mesh.first_node, mesh.local_nodes},
         elements{mesh.elements, mesh.first_element, static_cast<std::int64_t>(mesh.lines.size())},
         bodies(rows_on_rank_0(mesh.body_names.size(), rank)),
-        index(directory, origin(), {mesh.nodes, mesh.elements, bodies.total}) {}
+        catalogue(directory, origin(), {mesh.nodes, mesh.elements, bodies.total}) {}
 
   Origin origin() const { return {options.version, options.scene_hash}; }
   void write_mesh(const Mesh& mesh);
@@ -85,7 +85,7 @@ struct Series::Impl {
   Rows nodes;
   Rows elements;
   Rows bodies;
-  Index index;   ///< used on rank 0 alone
+  Catalogue catalogue;   ///< used on rank 0 alone
 
   std::optional<Hdf5File> file;   ///< the open segment
   int segment = 0;                ///< number of the open or next segment
@@ -94,7 +94,7 @@ struct Series::Impl {
 
   Clock::time_point opened = Clock::now();
   Clock::time_point last_write = Clock::now();
-  double index_seconds = 0;   ///< that the index took when it was last written
+  double catalogue_seconds = 0;   ///< that the catalogue took when it was last written
 };
 
 // One step at a time, lest a rank that failed leave the others waiting in the next.
@@ -165,7 +165,7 @@ bool Series::Impl::segment_is_due() {
   int due = 0;
   if (rank == 0) {
     const std::int64_t frame_limit = std::max<std::int64_t>(options.frames_per_segment, (frames - open_frames) / 10);
-    const double time_limit = std::max(options.seconds_per_segment, 50 * index_seconds);
+    const double time_limit = std::max(options.seconds_per_segment, 50 * catalogue_seconds);
     // The next frame is expected as long after this one as this one after the last.
     const double age_at_next = seconds_since(opened) + seconds_since(last_write);
     due = open_frames >= frame_limit || age_at_next >= time_limit;
@@ -183,8 +183,8 @@ void Series::Impl::close_segment() {
     const auto begin = Clock::now();
     const fs::path path = directory / segment_name(segment);
     publish(path.string() + ".part", path);
-    index.close_segment();
-    index_seconds = seconds_since(begin);
+    catalogue.close_segment();
+    catalogue_seconds = seconds_since(begin);
   }
   ++segment;
   open_frames = 0;
@@ -204,7 +204,7 @@ Series::~Series() = default;
 void Series::write(const Frame& frame) {
   if (!impl_->file) impl_->open_segment();
   impl_->write_fields(frame);
-  if (impl_->rank == 0) impl_->index.add_frame(frame.time);
+  if (impl_->rank == 0) impl_->catalogue.add_frame(frame.time);
   ++impl_->frames;
   ++impl_->open_frames;
   if (impl_->segment_is_due()) impl_->close_segment();

@@ -1,4 +1,4 @@
-#include "index.hpp"
+#include "catalogue.hpp"
 
 #include <utility>
 
@@ -7,24 +7,24 @@
 
 namespace cablenet::output {
 
-Index::Index(std::filesystem::path directory, Origin origin, const Counts& counts)
-    : directory_(std::move(directory)), origin_(std::move(origin)), counts_(counts) {}
+Catalogue::Catalogue(std::filesystem::path directory, Origin origin, const Totals& totals)
+    : directory_(std::move(directory)), origin_(std::move(origin)), totals_(totals) {}
 
-void Index::add_frame(double time) {
+void Catalogue::add_frame(double time) {
   const std::string group = segment_name(static_cast<int>(ends_.size())) + ":" + frame_name(frames_);
-  cable_steps_ += xdmf_cables(time, counts_.nodes, counts_.elements, group);
-  if (counts_.bodies > 0) body_steps_ += xdmf_bodies(time, counts_.bodies, group);
+  cable_steps_ += xdmf_cables(time, totals_.nodes, totals_.elements, group);
+  if (totals_.bodies > 0) body_steps_ += xdmf_bodies(time, totals_.bodies, group);
   ++frames_;
 }
 
-void Index::close_segment() {
+void Catalogue::close_segment() {
   ends_.push_back(frames_);
   // In this order every frame that an .xmf lists is in result.h5 too, whenever the run is killed.
   write_result();
   write_xdmf();
 }
 
-void Index::write_result() const {
+void Catalogue::write_result() const {
   const auto path = directory_ / "result.h5";
   const auto temporary = directory_ / "result.h5.tmp";
   // MPI's file access, unlike the serial one, takes no lock, which some file servers refuse.
@@ -40,10 +40,10 @@ void Index::write_result() const {
   publish(temporary, path);
 }
 
-void Index::write_xdmf() const {
+void Catalogue::write_xdmf() const {
   // A mesh without cells is nothing that ParaView could show.
-  if (counts_.elements > 0) replace_text(directory_ / "cables.xmf", xdmf_head("cables"), cable_steps_, xdmf_tail);
-  if (counts_.bodies > 0) replace_text(directory_ / "bodies.xmf", xdmf_head("bodies"), body_steps_, xdmf_tail);
+  if (totals_.elements > 0) replace_text(directory_ / "cables.xmf", xdmf_head("cables"), cable_steps_, xdmf_tail);
+  if (totals_.bodies > 0) replace_text(directory_ / "bodies.xmf", xdmf_head("bodies"), body_steps_, xdmf_tail);
 }
 
 }   // namespace cablenet::output
