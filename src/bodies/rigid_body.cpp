@@ -18,7 +18,7 @@ struct Maps {
 };
 
 template <class S, int n>
-struct Motion {
+struct AttitudeMotion {
   Unknowns<S, n> y, dy, ddy;
 };
 
@@ -48,7 +48,7 @@ Vec3<S> cross(const Vec3<S>& a, const Vec3<S>& b) {
 }
 
 template <class S>
-void add_gauge(const Properties& body, double dt, const Motion<S, 4>& m, Unknowns<S, 4>& own) {
+void add_gauge(const Properties& body, double dt, const AttitudeMotion<S, 4>& m, Unknowns<S, 4>& own) {
   const double s = dt > 0 ? gauge_rate / dt : 1;
   const S g = 0.5 * (m.y.squaredNorm() - 1.0), dg = m.y.dot(m.dy), ddg = m.y.dot(m.ddy) + m.dy.squaredNorm();
   const S force = 4 * body.inertia.trace() / 3 * (ddg + 2 * s * dg + s * s * g);
@@ -56,11 +56,11 @@ void add_gauge(const Properties& body, double dt, const Motion<S, 4>& m, Unknown
 }
 
 template <class S>
-void add_gauge(const Properties&, double, const Motion<S, 3>&, Unknowns<S, 3>&) {}
+void add_gauge(const Properties&, double, const AttitudeMotion<S, 3>&, Unknowns<S, 3>&) {}
 
 template <class Way, class S>
 Maps<S, Way::unknowns> stage_maps(const Properties& body, const Start& start, const StepRule& rule,
-                                  const Motion<S, Way::unknowns>& m) {
+                                  const AttitudeMotion<S, Way::unknowns>& m) {
   constexpr int n = Way::unknowns;
   const Turning<S, n> t = Way::turning(m.y, m.dy, m.ddy);
   const double after = 1 / rule.alpha_f, before = 1 - after;
@@ -117,11 +117,11 @@ void evaluate_with(const Properties& body, const Start& start, const StepRule& r
                    const Seeds* seeds, StageMotion& motion, StageForces& forces) {
   constexpr int n = Way::unknowns;
   if (seeds == nullptr) {
-    const Motion<double, n> m{stage.y.head<n>(), stage.dy.head<n>(), stage.ddy.head<n>()};
+    const AttitudeMotion<double, n> m{stage.y.head<n>(), stage.dy.head<n>(), stage.ddy.head<n>()};
     return copy_values(stage_maps<Way, double>(body, start, rule, m), motion, forces);
   }
   using Number = Eigen::AutoDiffScalar<Unknowns<double, n>>;
-  Motion<Number, n> m;
+  AttitudeMotion<Number, n> m;
   for (int i = 0; i < n; ++i) {
     m.y(i) = Number(stage.y(i), seeds->position * Unknowns<double, n>::Unit(i));
     m.dy(i) = Number(stage.dy(i), seeds->velocity * Unknowns<double, n>::Unit(i));
