@@ -35,10 +35,11 @@ double cable_kinetic_energy(const CableMaterial& m, double L, const Vector3& v1,
   return m.mass_per_length * L / 6 * (v1.squaredNorm() + v1.dot(v2) + v2.squaredNorm());
 }
 
-EndForces cable_end_forces(const CableMaterial& m, double L, double gravity, const Chord& c, const EndForces& q) {
+EndForces cable_end_forces(const CableMaterial& m, double L, double gravity, const Chord& c,
+                           const EndAccelerations& q) {
   const Vector3 f = cable_force(m, L, c);
   const Vector3 half_weight(0, 0, -0.5 * m.mass_per_length * L * gravity);
-  const EndForces inertia = cable_inertia(m, L, q.on1, q.on2);
+  const EndForces inertia = cable_inertia(m, L, q.at1, q.at2);
   return {inertia.on1 - f - half_weight, inertia.on2 + f - half_weight};
 }
 

@@ -65,7 +65,13 @@ double cable_strain_energy(const CableMaterial&, double L, const Vector3& d);
 /// v^T M v / 2 with the consistent mass M = rho A L/6 [[2, 1], [1, 2]] x I3.  [J]
 double cable_kinetic_energy(const CableMaterial&, double L, const Vector3& v1, const Vector3& v2);
 
-/// Both nodes' share of M q.
+/// a + beta v at the two nodes [m/s^2].
+struct EndAccelerations {
+  Vector3 at1;
+  Vector3 at2;
+};
+
+/// On the two nodes [N].
 struct EndForces {
   Vector3 on1;
   Vector3 on2;
@@ -80,6 +86,6 @@ inline EndForces cable_inertia(const CableMaterial& m, double L, const Vector3& 
 /// What the neighbours must pull with at the two ends for the element to move as it does:
 /// M (a + beta v) + (-f, +f) - weight/2 each.  [N]
 /// @param gravity acceleration [m/s^2] along -z
-EndForces cable_end_forces(const CableMaterial&, double L, double gravity, const Chord&, const EndForces& q);
+EndForces cable_end_forces(const CableMaterial&, double L, double gravity, const Chord&, const EndAccelerations& q);
 
 }   // namespace cablenet::elements

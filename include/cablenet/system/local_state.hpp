@@ -39,7 +39,7 @@ struct LocalState {
     return {at(x, e.node[1]) - at(x, e.node[0]), at(v, e.node[1]) - at(v, e.node[0])};
   }
   /// a + beta v at an element's two nodes.
-  elements::EndForces inertial(const partition::LocalElement& e, double beta) const {
+  elements::EndAccelerations inertial(const partition::LocalElement& e, double beta) const {
     return {at(a, e.node[0]) + beta * at(v, e.node[0]), at(a, e.node[1]) + beta * at(v, e.node[1])};
   }
 };
