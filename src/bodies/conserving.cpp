@@ -94,12 +94,12 @@ Values evaluate_values(const Properties& body, const Start& start, double dt, co
 }   // namespace
 
 [[gnu::flatten]] void evaluate_conserving(const Properties& body, const Start& start, double dt,
-                                          const RotationState& stage, const Seeds* seeds, StageMotion& motion,
-                                          StageForces& forces) {
+                                          const RotationState& stage, const Shift* shift, bool with_velocity,
+                                          StageMotion& motion, StageForces& forces) {
   const Values v = evaluate_values(body, start, dt, stage, motion, forces);
-  if (seeds == nullptr) return;
+  if (shift == nullptr) return;
   const double by_square = 1 / stage.y.squaredNorm(), by_end_square = 2 / v.q1.squaredNorm();
-  Matrix34 by_w = seeds->velocity * v.turn.rates - 2 * by_square * v.turn.w * stage.y.transpose();
+  Matrix34 by_w = shift->v * v.turn.rates - 2 * by_square * v.turn.w * stage.y.transpose();
   by_w -= 2 * by_square * QuaternionRotation::E<double>(stage.dy);
   const Eigen::RowVector4d by_u = 2 * dt * dt * v.turn.w.transpose() * by_w;
   const Matrix34 by_w1 = 2 / dt * (v.turn.arc.value * by_w + v.turn.arc.by * v.turn.w * by_u);
@@ -109,7 +109,7 @@ Values evaluate_values(const Properties& body, const Start& start, double dt, co
   const auto differentiate = [&]<int k>() {
     const Matrix3 half = half_slope<k>(v.q1, by_end_square, v.R1);
     motion.by_place.block<3, 3>(3 * k, 0) = 2 * half;
-    if (seeds->with_velocity) motion.by_velocity.block<3, 3>(3 * k, 0) = 4 / dt * half;
+    if (with_velocity) motion.by_velocity.block<3, 3>(3 * k, 0) = 4 / dt * half;
     motion.by_acceleration.block<3, 3>(3 * k, 0) =
         times_skew<double>(half, w1) + times_skew<double>(v.R1, by_w1.col(k));
     forces.by_lever.block<3, 3>(3 * k, 0) = v.turn.lever.by * by_u(k) * motion.place + 2 * v.turn.lever.value * half;
@@ -121,7 +121,7 @@ Values evaluate_values(const Properties& body, const Start& start, double dt, co
   [&]<int... k>(std::integer_sequence<int, k...>) { (differentiate.template operator()<k>(), ...); }
   (std::make_integer_sequence<int, 4>());
   forces.y = stage.y;
-  forces.by_position = 1;
+  forces.shift_x = 1;
   forces.by_own += turn_slope(Rotation::quaternion, forces, v.torque);
 }
 

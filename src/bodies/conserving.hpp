@@ -5,7 +5,7 @@ namespace cablenet::bodies {
 
 /// evaluate() for a conserving step, differentiated by hand: it is what every step of energy_momentum does for every
 /// body.
-void evaluate_conserving(const Properties&, const Start&, double dt, const RotationState& stage, const Seeds* seeds,
-                         StageMotion& motion, StageForces& forces);
+void evaluate_conserving(const Properties&, const Start&, double dt, const RotationState& stage, const Shift* shift,
+                         bool with_velocity, StageMotion& motion, StageForces& forces);
 
 }   // namespace cablenet::bodies

@@ -114,24 +114,24 @@ void copy_derivatives(const Maps<S, n>& from, StageMotion& motion, StageForces& 
 
 template <class Way>
 void evaluate_with(const Properties& body, const Start& start, const StepRule& rule, const RotationState& stage,
-                   const Seeds* seeds, StageMotion& motion, StageForces& forces) {
+                   const Shift* shift, StageMotion& motion, StageForces& forces) {
   constexpr int n = Way::unknowns;
-  if (seeds == nullptr) {
+  if (shift == nullptr) {
     const AttitudeMotion<double, n> m{stage.y.head<n>(), stage.dy.head<n>(), stage.ddy.head<n>()};
     return copy_values(stage_maps<Way, double>(body, start, rule, m), motion, forces);
   }
   using Number = Eigen::AutoDiffScalar<Unknowns<double, n>>;
   AttitudeMotion<Number, n> m;
   for (int i = 0; i < n; ++i) {
-    m.y(i) = Number(stage.y(i), seeds->position * Unknowns<double, n>::Unit(i));
-    m.dy(i) = Number(stage.dy(i), seeds->velocity * Unknowns<double, n>::Unit(i));
-    m.ddy(i) = Number(stage.ddy(i), seeds->acceleration * Unknowns<double, n>::Unit(i));
+    m.y(i) = Number(stage.y(i), shift->x * Unknowns<double, n>::Unit(i));
+    m.dy(i) = Number(stage.dy(i), shift->v * Unknowns<double, n>::Unit(i));
+    m.ddy(i) = Number(stage.ddy(i), shift->a * Unknowns<double, n>::Unit(i));
   }
   const Maps<Number, n> maps = stage_maps<Way, Number>(body, start, rule, m);
   copy_values(maps, motion, forces);
   copy_derivatives(maps, motion, forces);
   forces.y = stage.y;
-  forces.by_position = seeds->position;
+  forces.shift_x = shift->x;
 }
 
 /// Of roll, pitch, yaw; continuous in them.
@@ -188,12 +188,12 @@ Start start_of(const Properties& body, const Vector4& y, const Vector4& dy) {
 }
 
 void evaluate(const Properties& body, const Start& start, const StepRule& rule, const RotationState& stage,
-              const Seeds* seeds, StageMotion& motion, StageForces& forces) {
-  if (rule.conserving) return evaluate_conserving(body, start, rule.dt, stage, seeds, motion, forces);
+              const Shift* shift, bool with_velocity, StageMotion& motion, StageForces& forces) {
+  if (rule.conserving) return evaluate_conserving(body, start, rule.dt, stage, shift, with_velocity, motion, forces);
   if (body.rotation == Rotation::quaternion)
-    return evaluate_with<QuaternionRotation>(body, start, rule, stage, seeds, motion, forces);
+    return evaluate_with<QuaternionRotation>(body, start, rule, stage, shift, motion, forces);
   if (body.rotation == Rotation::euler)
-    return evaluate_with<EulerRotation>(body, start, rule, stage, seeds, motion, forces);
+    return evaluate_with<EulerRotation>(body, start, rule, stage, shift, motion, forces);
   motion.place = body.attitude.toRotationMatrix();
   motion.velocity.setZero();
   motion.acceleration.setZero();
@@ -207,12 +207,12 @@ Matrix4 turn_slope(Rotation rotation, const StageForces& forces, const Vector3& 
   if (rotation == Rotation::quaternion) {
     // G(q)^T T = slope q, with which turn^T T = 2/|q|^2 G(q)^T T.
     slope << 0, -T(0), -T(1), -T(2), T(0), 0, -T(2), T(1), T(1), T(2), 0, -T(0), T(2), -T(1), T(0), 0;
-    const double s = 2 * forces.by_position / forces.y.squaredNorm();
+    const double s = 2 * forces.shift_x / forces.y.squaredNorm();
     return s * (slope - (forces.turn.transpose() * T) * forces.y.transpose());
   }
   using Number = Eigen::AutoDiffScalar<Vector3>;
   Unknowns<Number, 3> y;
-  for (int i = 0; i < 3; ++i) y(i) = Number(forces.y(i), forces.by_position * Vector3::Unit(i));
+  for (int i = 0; i < 3; ++i) y(i) = Number(forces.y(i), forces.shift_x * Vector3::Unit(i));
   const Mat3<Number> turn = EulerRotation::matrix(y) * EulerRotation::rates(y);
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k)

@@ -31,7 +31,7 @@ public:
 
   /// Adds to a block that is written.  @param slot  of the two nodes, absent for one that is carried
   void add(LocalNode row, LocalNode column, TangentMatrix::Slot slot, const MotionSlopes& slopes,
-           const elements::Follow& follow) const {
+           const Shift& follow) const {
     BodyBlock* const own = shared_block(row, column);
     if (slot.absent && own == nullptr) return;
     slot.add = 1;

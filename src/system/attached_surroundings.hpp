@@ -16,7 +16,7 @@ struct AttachedWaterWork {
   bool operator()(std::size_t i, const partition::LocalElement& e) const {
     const elements::CableInWater& cable = network.surroundings.in_water[static_cast<std::size_t>(e.material)];
     const elements::EndMotion motion = end_motion(nodes, e.node[0], e.node[1]);
-    const auto loads = [&](const elements::Follow& follow) {
+    const auto loads = [&](const Shift& follow) {
       return elements::water_loads<with_tangent>(cable, e.length, motion, water, follow);
     };
     const elements::EndLoads by_x = loads({1, 0, 0});

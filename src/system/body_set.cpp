@@ -82,7 +82,7 @@ void BodySet::begin_step(const NodeData& data) {
   }
 }
 
-bool BodySet::place(const Stage& stage, bool conserving, const NodeData& data, const bodies::Seeds* seeds) {
+bool BodySet::place(const Stage& stage, bool conserving, const NodeData& data, const Shift* shift) {
   const AnyNodes nodes{data};
   bodies::StageMotion motion;
   outside_ = -1;
@@ -92,8 +92,9 @@ bool BodySet::place(const Stage& stage, bool conserving, const NodeData& data, c
     const bodies::StepRule rule{stage.dt > 0 ? stage.alpha_f : 1, stage.dt, conserving && turns_freely};
     const bodies::RotationState state = rotation(b, data);
     if (!is_in_domain(body.properties, starts_[b], rule, state.y)) outside_ = static_cast<int>(b);
-    const bool gets_tangent = seeds != nullptr && unknowns(b) > 0;
-    bodies::evaluate(body.properties, starts_[b], rule, state, gets_tangent ? seeds : nullptr, motion, forces_[b]);
+    const bool gets_tangent = shift != nullptr && unknowns(b) > 0;
+    bodies::evaluate(body.properties, starts_[b], rule, state, gets_tangent ? shift : nullptr, is_damped_, motion,
+                     forces_[b]);
     for (int k = body.first_carried; k < body.first_carried + body.carried; ++k) {
       const auto& [node, index, r] = network_.carried[at(k)];
       NodeMotion& here = data.outside[node.value() - data.owned];
@@ -101,7 +102,7 @@ bool BodySet::place(const Stage& stage, bool conserving, const NodeData& data, c
       Map3(here.v) = Const3(nodes.v(body.node)) + motion.velocity * r;
       if (data.a != nullptr) Map3(here.a) = Const3(nodes.a(body.node)) + motion.acceleration * r;
       Map3(data.outside_r + 3 * std::ptrdiff_t{node.value() - data.owned}).setZero();
-      if (seeds != nullptr) differentiate(motion, forces_[b], r, is_damped_, tangents_[at(k)]);
+      if (shift != nullptr) differentiate(motion, forces_[b], r, is_damped_, tangents_[at(k)]);
     }
   }
   return outside_ < 0;
@@ -128,7 +129,7 @@ BodySet::Sums BodySet::sums(std::size_t b, const NodeData& data) const {
   return sums;
 }
 
-void BodySet::add_water(const environment::Fluid& fluid, double t, const NodeData& data, const elements::Follow* follow,
+void BodySet::add_water(const environment::Fluid& fluid, double t, const NodeData& data, const Shift* follow,
                         bool follows_turning) {
   const AnyNodes nodes{data};
   for (std::size_t b = 0; b < blocks_.size(); ++b) {

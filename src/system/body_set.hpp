@@ -42,9 +42,9 @@ public:
   /// Keeps the step's start, where it places the carried nodes.
   void begin_step(const NodeData& data);
   /// Sets the carried nodes' motion at the stage and clears their forces.
-  /// @param seeds  with them, also carried_tangent()
+  /// @param shift  with it, also carried_tangent()
   /// @returns false where a body has left its domain: outside() says which
-  bool place(const Stage& stage, bool conserving, const NodeData& data, const bodies::Seeds* seeds);
+  bool place(const Stage& stage, bool conserving, const NodeData& data, const Shift* shift);
   /// Index into LocalNetwork::bodies; -1: none.
   int outside() const { return outside_; }
 
@@ -54,7 +54,7 @@ public:
 
   /// Adds what water does at the bodies' centres of gravity.
   /// @param follow  with it, the derivatives go to the bodies' own blocks
-  void add_water(const environment::Fluid& fluid, double t, const NodeData& data, const elements::Follow* follow,
+  void add_water(const environment::Fluid& fluid, double t, const NodeData& data, const Shift* follow,
                  bool follows_turning);
 
   /// Adds what the bodies' own inertia and the forces on carried nodes come to, where data has a residual, and writes

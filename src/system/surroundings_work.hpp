@@ -25,7 +25,7 @@ void subtract_block(const TangentTarget& target, const TangentMatrix::Slot& slot
 /// What an evaluation of the surroundings is told.
 struct SurroundingsTarget {
   TangentTarget tangent;
-  elements::Follow follow;
+  Shift follow;
   bool with_residual;
 };
 

@@ -68,12 +68,12 @@ bool Assembler::sweep_bodies(const Law& law, const Stage& stage, Access& access,
   const petsc::Timer timer(access.has_residual() ? petsc::Phase::residual : petsc::Phase::tangent);
   const AnyNodes nodes{access.data};
   TangentTarget target{};
-  bodies::Seeds seeds{};
+  Shift shift;
   if constexpr (with_tangent) {
     target = {request->matrix.values(), request->matrix.element_slots().data(), request->shift_v, request->shift_a};
-    seeds = {request->shift_x, request->shift_v, request->shift_a, !is_elastic_ || !network_.surroundings.empty()};
+    shift = {request->shift_x, request->shift_v, request->shift_a};
   }
-  bool in_domain = bodies_->place(stage, conserves(stage), access.data, with_tangent ? &seeds : nullptr);
+  bool in_domain = bodies_->place(stage, conserves(stage), access.data, with_tangent ? &shift : nullptr);
   const AttachedBlocks blocks(network_, *bodies_, target);
   const AttachedWork<Law, with_tangent> work{network_, law,    starts_->of<Law>(network_.elements.size()).data(),
                                              nodes,    target, blocks};

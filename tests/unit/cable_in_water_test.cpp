@@ -12,7 +12,7 @@ using environment::Fluid;
 
 const CableInWater rope{4.0, 3.1, 55.0, 2.5, 0.08};
 constexpr double L = 1.6, g = 9.81;
-const Follow follow{1, 40, 1700};
+const Shift follow{1, 40, 1700};
 
 struct CableInWaterTest : testing::Test {
   /// The same states whichever tests run.
@@ -29,7 +29,7 @@ EndMotion random_motion(double z) {
   return m;
 }
 
-EndMotion moved(EndMotion m, int node, const Vector3& step, const Follow& f) {
+EndMotion moved(EndMotion m, int node, const Vector3& step, const Shift& f) {
   m.x[node] += f.x * step;
   m.v[node] += f.v * step;
   m.a[node] += f.a * step;
@@ -37,7 +37,7 @@ EndMotion moved(EndMotion m, int node, const Vector3& step, const Follow& f) {
 }
 
 template <class Water>
-void expect_exact_tangent(const CableInWater& c, const EndMotion& m, const Water& water, const Follow& f, double h) {
+void expect_exact_tangent(const CableInWater& c, const EndMotion& m, const Water& water, const Shift& f, double h) {
   const EndLoads loads = water_loads<true>(c, L, m, water, f);
   double size = 0;
   for (int i : {0, 1})
@@ -133,7 +133,7 @@ EndMotion resting(const Vector3& x1, const Vector3& x2) {
   return {{x1, x2}, {zero, zero}, {zero, zero}};
 }
 
-const Follow still_follow{1, 0, 0};
+const Shift still_follow{1, 0, 0};
 
 Vector3 total(const CableInWater& c, const EndMotion& m, const auto& water) {
   const EndLoads loads = water_loads<false>(c, L, m, water, still_follow);

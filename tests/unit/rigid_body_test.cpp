@@ -51,9 +51,9 @@ struct Stage {
 };
 
 Stage evaluated(const Properties& p, const Start& start, const StepRule& rule, const RotationState& s,
-                const Seeds* seeds = nullptr) {
+                const Shift* shift = nullptr) {
   Stage stage;
-  evaluate(p, start, rule, s, seeds, stage.motion, stage.forces);
+  evaluate(p, start, rule, s, shift, true, stage.motion, stage.forces);
   return stage;
 }
 
@@ -64,17 +64,17 @@ TEST_P(RigidBodyMaps, DerivativesAreThoseOfTheValues) {
   const Start start = start_of(p, begin.y, begin.dy);
   RotationState s = stage_of(rotation);
   if (at_rest) s.dy.setZero();
-  const Seeds seeds{1, 100, 2e4};
-  const auto [motion, forces] = evaluated(p, start, rule_of(conserving), s, &seeds);
+  const Shift shift{1, 100, 2e4};
+  const auto [motion, forces] = evaluated(p, start, rule_of(conserving), s, &shift);
   const Vector3 T(0.7, -0.4, 0.9);
   const double h = 1e-6,
                size = std::max(forces.by_own.cwiseAbs().maxCoeff(), motion.by_acceleration.cwiseAbs().maxCoeff());
   for (int k = 0; k < rotation_unknowns(rotation); ++k) {
     const auto at = [&, rotate = conserving](double step) {
       RotationState moved = s;
-      moved.y(k) += step * seeds.position;
-      moved.dy(k) += step * seeds.velocity;
-      moved.ddy(k) += step * seeds.acceleration;
+      moved.y(k) += step * shift.x;
+      moved.dy(k) += step * shift.v;
+      moved.ddy(k) += step * shift.a;
       return evaluated(p, start, rule_of(rotate), moved);
     };
     const Stage plus = at(h), minus = at(-h);

@@ -1,5 +1,6 @@
 #pragma once
 #include "cablenet/base/linear_algebra.hpp"
+#include "cablenet/base/shift.hpp"
 
 /// A rigid body: the position X of its centre of gravity and its attitude, a quaternion q of four unknowns of which
 /// none is ever singular, or the papers' roll, pitch, yaw.  A cable's end is fastened at x = X + R r.
@@ -66,12 +67,6 @@ struct StepRule {
   bool conserving = false;   ///< @pre alpha_f = 1/2, a quaternion
 };
 
-/// How y_a, y_a', y_a'' follow the unknown that a tangent is by: 1, shift_v, shift_a; 0, 0, 1 for a mass matrix.
-struct Seeds {
-  double position, velocity, acceleration;
-  bool with_velocity = true;   ///< StageMotion::by_velocity is of use
-};
-
 /// A map's derivatives by the unknowns, one below the other: times r it is that of the map's r, (3, 4) column-major.
 using Stacked = Eigen::Matrix<double, 12, 3>;
 
@@ -90,12 +85,13 @@ struct StageForces {
   Stacked by_lever = Stacked::Zero();
   Matrix4 by_own = Matrix4::Zero();
   Vector4 y = Vector4::Zero();   ///< of the stage
-  double by_position = 0;        ///< Seeds::position
+  double shift_x = 0;            ///< Shift::x
 };
 
-/// @param seeds  none: values alone, the derivatives (by_...) stay as they are
-void evaluate(const Properties&, const Start&, const StepRule&, const RotationState& stage, const Seeds* seeds,
-              StageMotion& motion, StageForces& forces);
+/// @param shift  of y_a, y_a', y_a''; none: values alone, the derivatives (by_...) stay as they are
+/// @param with_velocity  StageMotion::by_velocity is of use
+void evaluate(const Properties&, const Start&, const StepRule&, const RotationState& stage, const Shift* shift,
+              bool with_velocity, StageMotion& motion, StageForces& forces);
 
 /// The derivative of turn^T T, T held, by the unknowns.
 Matrix4 turn_slope(Rotation, const StageForces&, const Vector3& torque);

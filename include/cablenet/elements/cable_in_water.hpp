@@ -2,6 +2,7 @@
 #include <array>
 
 #include "cablenet/base/linear_algebra.hpp"
+#include "cablenet/base/shift.hpp"
 #include "cablenet/environment/water.hpp"
 
 /// What water does to a two-node cable element: Morison's drag, added mass normal to the cable, buoyancy and the
@@ -28,11 +29,6 @@ struct EndMotion {
   std::array<Vector3, 2> x, v, a;
 };
 
-/// How x, v, a of a node follow the unknown that a tangent is by: 1, shift_v, shift_a.
-struct Follow {
-  double x, v, a;
-};
-
 /// Loads on the two nodes [N] and on[i]'s derivatives by node j's unknowns.
 struct EndLoads {
   std::array<Vector3, 2> on;
@@ -57,6 +53,6 @@ struct VaryingWater {
 /// In cable_in_water_loads.hpp.
 /// @param L unstretched length [m]   @returns loads; without tangent `by` is not set
 template <bool with_tangent, class Water>
-EndLoads water_loads(const CableInWater&, double L, const EndMotion&, const Water&, const Follow&);
+EndLoads water_loads(const CableInWater&, double L, const EndMotion&, const Water&, const Shift&);
 
 }   // namespace cablenet::elements

@@ -38,7 +38,7 @@ inline HalfWetness half_wetness(const environment::Fluid& fluid, double t, doubl
 
 /// What is wet of a load on a wet cable.
 template <bool with_tangent>
-void wet_in_part(const HalfWetness& wet, const Follow& f, LineLoad& load) {
+void wet_in_part(const HalfWetness& wet, const Shift& f, LineLoad& load) {
   if constexpr (with_tangent) {
     load.M *= wet.fraction;
     for (LineSlope* slope : {&load.chord, &load.point}) slope->a *= wet.fraction, slope->q *= wet.fraction;
@@ -51,7 +51,7 @@ void wet_in_part(const HalfWetness& wet, const Follow& f, LineLoad& load) {
 /// @param d  the chord   @param e  d/l
 template <bool with_tangent, class Water>
 LineLoad line_load(const CableInWater& c, const Vector3& d, const Vector3& e, double l, const GaussPoint& gauss,
-                   const EndMotion& m, const Water& water, const Follow& f) {
+                   const EndMotion& m, const Water& water, const Shift& f) {
   const Vector3 v = between(m.v, gauss.at), a = between(m.a, gauss.at);
   if constexpr (!Water::varies) {
     LineLoad load = wet_line_load<with_tangent>(c, e, l, CrossFlow(e, water.velocity - v, -a), f);
@@ -90,7 +90,7 @@ Matrix3 node_tangent(const Vector3& e, const LineLoad& load0, const LineLoad& lo
 
 template <bool with_tangent, class Water>
 [[gnu::flatten]] EndLoads water_loads(const CableInWater& c, double L, const EndMotion& m, const Water& water,
-                                      const Follow& f) {
+                                      const Shift& f) {
   const Vector3 d = m.x[1] - m.x[0];
   const double l = d.norm();
   const Vector3 e = 1 / l * d;

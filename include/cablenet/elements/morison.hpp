@@ -66,7 +66,7 @@ inline LineLoad no_line_load() {
 }
 
 template <bool with_tangent>
-LineLoad wet_line_load(const CableInWater& c, const Vector3& e, double l, const CrossFlow& flow, const Follow& f) {
+LineLoad wet_line_load(const CableInWater& c, const Vector3& e, double l, const CrossFlow& flow, const Shift& f) {
   LineLoad load;
   load.p = flow.load(c, e);
   if constexpr (with_tangent) {
