@@ -138,7 +138,7 @@ private:
       report_.message = fmt::format(
           "no equilibrium was found: {}; the largest unbalanced force is {:.3g} of the largest "
           "load on a node, near {}",
-          statics_->failure(), statics_->imbalance(), place(statics_->failed_place()));
+          statics_->failure(), statics_->imbalance(), name_of(statics_->failed_part()));
     const system::Vector x = assembler_->make_vector(), v = assembler_->make_vector(), a = assembler_->make_vector();
     statics_->make_start();
     assembler_->fill_initial(x, v);
@@ -229,14 +229,14 @@ private:
            network_.bodies[static_cast<std::size_t>(failed_.body)].properties.rotation == bodies::Rotation::euler;
   }
 
-  std::string place(const solve::FailedPlace& failed) const {
+  std::string name_of(const solve::FailedPart& failed) const {
     if (failed.body < 0) return fmt::format("cable {}", network_.element_name(failed.element));
     return fmt::format("body {}", network_.bodies[static_cast<std::size_t>(failed.body)].name);
   }
 
   /// Where and why.
   std::string explanation() {
-    failed_ = dynamics_->failed_place();
+    failed_ = dynamics_->failed_part();
     if (failed_.body < 0)
       return fmt::format("near cable {}: {}", network_.element_name(failed_.element), dynamics_->failure());
     const std::string& name = network_.bodies[static_cast<std::size_t>(failed_.body)].name;
@@ -272,7 +272,7 @@ private:
   std::optional<output::Series> series_;
   std::optional<output::History> history_;   ///< rank 0
   Report report_;
-  solve::FailedPlace failed_;
+  solve::FailedPart failed_;
   Report::Phase set_up_{"set_up"};
   Report::Phase equilibrium_{"statics"};
   Report::Phase solving_{"solve"};

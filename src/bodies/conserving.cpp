@@ -79,12 +79,12 @@ Values evaluate_values(const Properties& body, const Start& start, double dt, co
   v.turn = mean_turn(dt, stage.y, stage.dy);
   v.w1 = 2 * v.turn.arc.value * v.turn.w - start.w;
   v.momentum1 = body.inertia * v.w1;
-  motion.place = 0.5 * (start.R + v.R1);
+  motion.position = 0.5 * (start.R + v.R1);
   motion.velocity = (1 / dt) * (v.R1 - start.R);
   motion.acceleration = (1 / dt) * (times_skew<double>(v.R1, v.w1) - times_skew<double>(start.R, start.w));
-  forces.lever = v.turn.lever.value * motion.place;
+  forces.lever = v.turn.lever.value * motion.position;
   forces.turn = QuaternionRotation::world_rates<double>(stage.y);
-  v.torque = (1 / dt) * (v.R1 * v.momentum1 - start.R * (body.inertia * start.w)) - motion.place * body.torque;
+  v.torque = (1 / dt) * (v.R1 * v.momentum1 - start.R * (body.inertia * start.w)) - motion.position * body.torque;
   v.gauge = 4 * body.inertia.trace() / 3 / (dt * dt);
   v.excess = v.q1.squaredNorm() - 1;
   forces.own = forces.turn.transpose() * v.torque + v.gauge * v.excess / stage.y.squaredNorm() * stage.y;
@@ -108,11 +108,11 @@ Values evaluate_values(const Properties& body, const Start& start, double dt, co
   const Vector3 w1 = 4 / dt * v.w1, swept = 4 / dt * v.momentum1 - 2 * body.torque;
   const auto differentiate = [&]<int k>() {
     const Matrix3 half = half_slope<k>(v.q1, by_end_square, v.R1);
-    motion.by_place.block<3, 3>(3 * k, 0) = 2 * half;
+    motion.by_position.block<3, 3>(3 * k, 0) = 2 * half;
     if (with_velocity) motion.by_velocity.block<3, 3>(3 * k, 0) = 4 / dt * half;
     motion.by_acceleration.block<3, 3>(3 * k, 0) =
         times_skew<double>(half, w1) + times_skew<double>(v.R1, by_w1.col(k));
-    forces.by_lever.block<3, 3>(3 * k, 0) = v.turn.lever.by * by_u(k) * motion.place + 2 * v.turn.lever.value * half;
+    forces.by_lever.block<3, 3>(3 * k, 0) = v.turn.lever.by * by_u(k) * motion.position + 2 * v.turn.lever.value * half;
     const Vector3 by_torque = half * swept + by_momentum.col(k);
     forces.by_own.col(k) = forces.turn.transpose() * by_torque +
                            v.gauge * by_square * (4 * v.q1(k) - 2 * v.excess * by_square * stage.y(k)) * stage.y;

@@ -12,7 +12,7 @@ namespace {
 
 template <class S, int n>
 struct Maps {
-  Mat3<S> place, velocity, acceleration, lever;
+  Mat3<S> position, velocity, acceleration, lever;
   Eigen::Matrix<S, 3, n> turn;
   Unknowns<S, n> own;
 };
@@ -70,7 +70,7 @@ Maps<S, Way::unknowns> stage_maps(const Properties& body, const Start& start, co
   const Vec3<S> w1 = Way::rates(y1) * dy1;
   const Matrix3 velocity0 = start.R * skew<double>(start.w);
   Maps<S, n> maps;
-  maps.place = ((1 - rule.alpha_f) * start.R).template cast<S>() + rule.alpha_f * R1;
+  maps.position = ((1 - rule.alpha_f) * start.R).template cast<S>() + rule.alpha_f * R1;
   maps.velocity = ((1 - rule.alpha_f) * velocity0).template cast<S>() + rule.alpha_f * times_skew(R1, w1);
   const Mat3<S> swept = times_skew(t.R, t.w);
   maps.acceleration = times_skew(t.R, t.dw) + times_skew(swept, t.w);
@@ -86,7 +86,7 @@ Maps<S, Way::unknowns> stage_maps(const Properties& body, const Start& start, co
 template <class S, int n>
 void copy_values(const Maps<S, n>& from, StageMotion& motion, StageForces& forces) {
   const auto value = [](const S& number) { return value_of(number); };
-  motion.place = from.place.unaryExpr(value);
+  motion.position = from.position.unaryExpr(value);
   motion.velocity = from.velocity.unaryExpr(value);
   motion.acceleration = from.acceleration.unaryExpr(value);
   forces.lever = from.lever.unaryExpr(value);
@@ -104,7 +104,7 @@ void stack(const Mat3<S>& from, int unknowns, Stacked& to) {
 
 template <class S, int n>
 void copy_derivatives(const Maps<S, n>& from, StageMotion& motion, StageForces& forces) {
-  stack(from.place, n, motion.by_place);
+  stack(from.position, n, motion.by_position);
   stack(from.velocity, n, motion.by_velocity);
   stack(from.acceleration, n, motion.by_acceleration);
   stack(from.lever, n, forces.by_lever);
@@ -194,7 +194,7 @@ void evaluate(const Properties& body, const Start& start, const StepRule& rule, 
     return evaluate_with<QuaternionRotation>(body, start, rule, stage, shift, motion, forces);
   if (body.rotation == Rotation::euler)
     return evaluate_with<EulerRotation>(body, start, rule, stage, shift, motion, forces);
-  motion.place = body.attitude.toRotationMatrix();
+  motion.position = body.attitude.toRotationMatrix();
   motion.velocity.setZero();
   motion.acceleration.setZero();
   forces.lever.setZero();

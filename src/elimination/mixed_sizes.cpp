@@ -81,9 +81,9 @@ int Elimination::factor_step(const Large& step, Own own, const Arrays& arrays, c
   visit_later(k, [&](double*, double* lower, int i) {
     with_size(plan_.size[at(i)], [&](auto rows) {
       visit_later(k, [&](double* upper, double*, int j) {
-        const std::int64_t place = *target++;
+        const std::int64_t offset = *target++;
         with_size(plan_.size[at(j)], [&](auto columns) {
-          update_block(values_.data() + (place < 0 ? ~place : place), place < 0, lower, upper, rows, own, columns);
+          update_block(values_.data() + (offset < 0 ? ~offset : offset), offset < 0, lower, upper, rows, own, columns);
         });
       });
     });

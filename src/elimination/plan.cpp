@@ -23,23 +23,23 @@ public:
 
   std::optional<Plan> make(double most_updates) {
     if (!find_later_neighbours(most_updates)) return std::nullopt;
-    place_values();
-    for (int k = 0; k < graph_.eliminated; ++k) place_updates(k);
+    lay_out_values();
+    for (int k = 0; k < graph_.eliminated; ++k) lay_out_updates(k);
     return std::move(plan_);
   }
 
 private:
   bool find_later_neighbours(double most_updates);
   void collect(int k, std::vector<int>& found);
-  void place_values();
-  void place_updates(int k);
-  /// A block's place, and its number in the order of factoring; -1 if both are kept.
+  void lay_out_values();
+  void lay_out_updates(int k);
+  /// Where a block's values begin, and its number in the order of factoring; -1 if both are kept.
   struct Found {
-    std::int64_t place, number;
+    std::int64_t offset, number;
   };
   Found find(int row, int column);
   std::int64_t number(int k, int coupling) const { return k + std::int64_t{plan_.symmetric ? 1 : 2} * coupling; }
-  std::int64_t kept_place(int row, int column);
+  std::int64_t kept_offset(int row, int column);
 
   const BlockGraph& graph_;
   Plan plan_;
@@ -87,7 +87,7 @@ bool Planner::find_later_neighbours(double most_updates) {
   return true;
 }
 
-void Planner::place_values() {
+void Planner::lay_out_values() {
   const std::int64_t blocks = graph_.eliminated, couplings = static_cast<std::int64_t>(plan_.later.size());
   std::int64_t pivots = 9 * blocks, one_side = 9 * couplings;
   if (!plan_.uniform) {
@@ -109,7 +109,7 @@ void Planner::place_values() {
   plan_.touched.assign(at(number(graph_.eliminated, static_cast<int>(couplings))), false);
 }
 
-std::int64_t Planner::kept_place(int row, int column) {
+std::int64_t Planner::kept_offset(int row, int column) {
   const auto [found, is_new] = kept_.try_emplace({row, column}, plan_.values);
   if (is_new) {
     plan_.kept.push_back({row, column, plan_.values});
@@ -120,7 +120,7 @@ std::int64_t Planner::kept_place(int row, int column) {
 
 Planner::Found Planner::find(int row, int column) {
   const int owner = std::min(row, column);
-  if (owner >= graph_.eliminated) return {kept_place(row, column), -1};
+  if (owner >= graph_.eliminated) return {kept_offset(row, column), -1};
   if (row == column) return {plan_.pivot(row), number(row, plan_.first_later[at(row)])};
   const auto begin = plan_.later.begin() + plan_.first_later[at(owner)];
   const auto end = plan_.later.begin() + plan_.first_later[at(owner) + 1];
@@ -130,15 +130,15 @@ Planner::Found Planner::find(int row, int column) {
   return {plan_.lower_values + plan_.coupling(i), plan_.symmetric ? first : first + 1};
 }
 
-void Planner::place_updates(int k) {
+void Planner::lay_out_updates(int k) {
   const auto begin = plan_.later.begin() + plan_.first_later[at(k)];
   const auto end = plan_.later.begin() + plan_.first_later[at(k) + 1];
   for (auto i = begin; i != end; ++i)
     for (auto j = begin; j != (plan_.symmetric ? i + 1 : end); ++j) {
-      const auto [place, number] = find(*i, *j);
+      const auto [offset, number] = find(*i, *j);
       const bool first = number >= 0 && !plan_.touched[at(number)];
       if (first) plan_.touched[at(number)] = true;
-      plan_.targets.push_back(first ? ~place : place);
+      plan_.targets.push_back(first ? ~offset : offset);
     }
 }
 

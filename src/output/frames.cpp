@@ -17,8 +17,8 @@ constexpr std::size_t values_per_body = 13;
 
 std::int64_t block_start(std::int64_t count, int rank, int ranks) { return count * rank / ranks; }
 
-/// Where item `index` of `count` is written: the rank and the place in its block.
-PetscSFNode block_place(std::int64_t count, std::int64_t index, int ranks) {
+/// Where item `index` of `count` is written: the rank and the index in its block.
+PetscSFNode root_of(std::int64_t count, std::int64_t index, int ranks) {
   int rank = static_cast<int>(((index + 1) * ranks - 1) / count);
   while (block_start(count, rank, ranks) > index) --rank;
   while (block_start(count, rank + 1, ranks) <= index) ++rank;
@@ -116,15 +116,15 @@ void Frames::collect_bodies(const system::LocalState& state) {
 void Frames::make_forests() {
   const partition::LocalNetwork& here = assembler_.network();
   std::vector<PetscInt> spoken_for;
-  std::vector<PetscSFNode> spoken_places, places, element_places;
+  std::vector<PetscSFNode> spoken_roots, node_roots, element_roots;
   for (LocalNode node(0); node.value() < here.nodes; ++node) {
-    places.push_back(block_place(mesh_.nodes, here.scene_node[node].value(), ranks_));
+    node_roots.push_back(root_of(mesh_.nodes, here.scene_node[node].value(), ranks_));
     if (!here.primary[node]) continue;
     spoken_for.push_back(node.value());
-    spoken_places.push_back(places.back());
+    spoken_roots.push_back(node_roots.back());
   }
   for (std::size_t i = 0; i < at(here.own_elements); ++i)
-    element_places.push_back(block_place(mesh_.elements, here.scene_element[i], ranks_));
+    element_roots.push_back(root_of(mesh_.elements, here.scene_element[i], ranks_));
   const auto create = [&](StarForest& forest, std::int64_t roots, std::vector<PetscInt>* leaves,
                           std::vector<PetscSFNode>& remote) {
     check(PetscSFCreate(assembler_.communicator(), forest.out()));
@@ -133,9 +133,9 @@ void Frames::make_forests() {
                           PETSC_COPY_VALUES));
     check(PetscSFSetUp(forest));
   };
-  create(nodes_, mesh_.local_nodes, &spoken_for, spoken_places);
-  create(all_nodes_, mesh_.local_nodes, nullptr, places);
-  create(elements_, static_cast<std::int64_t>(mesh_.lines.size()), nullptr, element_places);
+  create(nodes_, mesh_.local_nodes, &spoken_for, spoken_roots);
+  create(all_nodes_, mesh_.local_nodes, nullptr, node_roots);
+  create(elements_, static_cast<std::int64_t>(mesh_.lines.size()), nullptr, element_roots);
 }
 
 void Frames::compute_tensions(const system::LocalState& state) {

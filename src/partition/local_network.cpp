@@ -137,19 +137,19 @@ private:
     list_sent_nodes();
   }
 
-  /// Each rank lists the nodes that it sends by their numbers, so that every rank can tell a ghost's slot.
+  /// Each rank lists the nodes that it sends by their numbers, so that every rank can tell a ghost's index.
   void list_sent_nodes() {
     std::vector<SolverNumber> sent;
     for_each_cut_end([&](SceneNode node) { sent.push_back(partition_.solver_number[node]); });
     std::sort(sent.begin(), sent.end());
     sent.erase(std::unique(sent.begin(), sent.end()), sent.end());
-    const auto slot = [&](SolverNumber number) {
+    const auto index = [&](SolverNumber number) {
       return static_cast<int>(std::lower_bound(sent.begin(), sent.end(), number) - sent.begin());
     };
     const auto& first = partition_.first_number;
     for (std::size_t g = 0; g < here_.ghost_number.size(); ++g)
-      here_.ghost_slot.push_back(slot(here_.ghost_number[g]) - slot(first[at(here_.ghost_owner[g])]));
-    for (int i = slot(first[at(rank_)]); i < slot(first[at(rank_) + 1]); ++i)
+      here_.ghost_index.push_back(index(here_.ghost_number[g]) - index(first[at(here_.ghost_owner[g])]));
+    for (int i = index(first[at(rank_)]); i < index(first[at(rank_) + 1]); ++i)
       here_.sent.emplace_back(sent[at(i)] - here_.first_number);
   }
 

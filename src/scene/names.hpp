@@ -24,12 +24,12 @@ public:
   const std::vector<std::string>& all() const { return names_; }
 
 private:
-  struct Place {
+  struct Extent {
     int first, copies;
   };
   std::string kind_;
   std::vector<std::string> names_;
-  std::unordered_map<std::string, Place> table_;
+  std::unordered_map<std::string, Extent> table_;
 };
 
 /// The names of everything in a scene.

@@ -90,11 +90,11 @@ Quaternion read_orientation(const Value& value) {
       .normalized();
 }
 
-std::vector<Attachment> read_attachments(const Value& value, std::vector<Value>& places) {
+std::vector<Attachment> read_attachments(const Value& value, std::vector<Value>& values) {
   std::vector<Attachment> attachments;
   for (const Named& named : read_named(value, "a map from names to [x, y, z] [m]")) {
     attachments.push_back({named.name, read_vector(named.value, "m")});
-    places.push_back(named.value);
+    values.push_back(named.value);
   }
   return attachments;
 }
@@ -158,7 +158,7 @@ BodyDraft read_body(const Named& named) {
       named.value, {"mass", "inertia", "position", "orientation", "velocity", "angular_velocity", "force", "torque",
                     "attachments", "rotation", "coupling", "volume", "center_of_buoyancy", "drag", "added_mass"});
   Body body;
-  std::vector<Value> places;
+  std::vector<Value> values;
   body.name = named.name;
   body.where = named.value.where();
   body.mass = read_number(section.require("mass", "a number > 0 [kg]"), Sign::positive, "kg");
@@ -168,7 +168,7 @@ BodyDraft read_body(const Named& named) {
   if (const Value* rate = section.find("angular_velocity")) body.angular_velocity = read_turning(*rate, "rad/s", body);
   if (const Value* force = section.find("force")) body.force = read_vector(*force, "N");
   if (const Value* torque = section.find("torque")) body.torque = read_turning(*torque, "N m", body);
-  if (const Value* value = section.find("attachments")) body.attachments = read_attachments(*value, places);
+  if (const Value* value = section.find("attachments")) body.attachments = read_attachments(*value, values);
   if (const Value* coupling = section.find("coupling")) body.link_stiffness = read_coupling(*coupling);
   if (const Value* rotation = section.find("rotation"))
     body.rotation = read_choice(*rotation, {"quaternion", "euler"}) == 0 ? Rotation::quaternion : Rotation::euler;
@@ -177,7 +177,7 @@ BodyDraft read_body(const Named& named) {
     check_pitch(*orientation, body);
   }
   read_water(section, body);
-  return {{std::move(body), named.value}, std::move(places)};
+  return {{std::move(body), named.value}, std::move(values)};
 }
 
 }   // namespace

@@ -91,21 +91,21 @@ void check_name(const Named& named) {
 }
 
 YAML::Node read_document(const std::string& text, const std::string& file) {
-  Value place{YAML::Node(), "", 1, &file};
+  Value whole{YAML::Node(), "", 1, &file};
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(text);
     if (documents.empty()) return YAML::Node();
     if (documents.size() == 1) return documents[0];
-    place.line = documents[1].Mark().line + 1;
+    whole.line = documents[1].Mark().line + 1;
   } catch (const YAML::Exception& error) {
-    place.line = std::max(error.mark.line, 0) + 1;
-    place.fail(
+    whole.line = std::max(error.mark.line, 0) + 1;
+    whole.fail(
         fmt::format("the file is no valid YAML: {}. Look at this line and the one before it: indentation "
                     "(spaces, no tabs), brackets, quotes (names like \"branch[2]\" need them), the space after "
                     "a colon.",
                     error.msg));
   }
-  place.fail("a second YAML document begins here; expected one scene per file. Remove the --- or split the file.");
+  whole.fail("a second YAML document begins here; expected one scene per file. Remove the --- or split the file.");
 }
 
 }   // namespace

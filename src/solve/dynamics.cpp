@@ -9,7 +9,7 @@
 #include "cablenet/base/errors.hpp"
 #include "cablenet/petsc/queries.hpp"
 #include "cablenet/solve/defaults.hpp"
-#include "failed_place.hpp"
+#include "failed_part.hpp"
 
 namespace cablenet::solve {
 namespace {
@@ -231,10 +231,10 @@ void Dynamics::explain_failure() {
   if (pivots.negative > 0) failure_ += fmt::format("; the tangent has {} negative pivots", pivots.negative);
 }
 
-FailedPlace Dynamics::failed_place() {
+FailedPart Dynamics::failed_part() {
   Vec r = nullptr;
   check(SNESGetFunction(snes_, &r, nullptr, nullptr));
-  return worst_place(assembler_, r, {failed_node_, outside_domain_, outside_body_});
+  return worst_part(assembler_, r, {failed_node_, outside_domain_, outside_body_});
 }
 
 std::string Dynamics::linear_solver() const { return describe(ksp_, linear_); }

@@ -39,7 +39,7 @@ InterfaceSystem::InterfaceSystem(const partition::Interface& interface, eliminat
   std::size_t values = failures_ + 1;
   for (int row = 0; row < rows_.vertices(); ++row)
     for (int i = rows_.first[at(row)]; i < rows_.first[at(row) + 1]; ++i) {
-      places_.push_back(values);
+      block_begins_.push_back(values);
       values += at(size(InterfaceNode(row)) * size(InterfaceNode(rows_.adjacent[at(i)])));
     }
   sum_.resize(values);
@@ -48,15 +48,15 @@ InterfaceSystem::InterfaceSystem(const partition::Interface& interface, eliminat
     const auto last = rows_.adjacent.begin() + rows_.first[at(i) + 1];
     const InterfaceNode row(i), column(j);
     if (!std::binary_search(first, last, j)) return elimination::BlockSource{};
-    return elimination::block_source(static_cast<int>(place(row, column).begin), size(column), 0);
+    return elimination::block_source(static_cast<int>(block(row, column).begin), size(column), 0);
   };
   elimination_ = std::make_unique<elimination::Elimination>(std::move(plan), where);
 }
 
-InterfaceSystem::Place InterfaceSystem::place(InterfaceNode row, InterfaceNode column) const {
+InterfaceSystem::SummedBlock InterfaceSystem::block(InterfaceNode row, InterfaceNode column) const {
   const auto first = rows_.adjacent.begin() + rows_.first[at(row)];
   const auto found = std::lower_bound(first, rows_.adjacent.begin() + rows_.first[at(row) + 1], column.value());
-  return {places_[static_cast<std::size_t>(found - rows_.adjacent.begin())], size(row), size(column)};
+  return {block_begins_[static_cast<std::size_t>(found - rows_.adjacent.begin())], size(row), size(column)};
 }
 
 void InterfaceSystem::clear(bool new_matrix) {
@@ -64,7 +64,7 @@ void InterfaceSystem::clear(bool new_matrix) {
   std::fill(sum_.begin(), new_matrix ? sum_.end() : sum_.begin() + static_cast<std::ptrdiff_t>(failures_) + 1, 0.0);
 }
 
-void InterfaceSystem::add(const Place& block, const double* values, std::size_t stride, bool transposed) {
+void InterfaceSystem::add(const SummedBlock& block, const double* values, std::size_t stride, bool transposed) {
   double* to = sum_.data() + block.begin;
   const std::size_t down = transposed ? 1 : stride, right = transposed ? stride : 1;
   const std::size_t rows = at(block.rows), columns = at(block.columns);

@@ -23,7 +23,7 @@ public:
   static elimination::BlockGraph block_graph(const partition::Interface& interface, const partition::Blocks& blocks);
 
   /// Where a block of the matrix stands.
-  struct Place {
+  struct SummedBlock {
     std::size_t begin;
     int rows, columns;
   };
@@ -31,9 +31,9 @@ public:
   /// Starts a sum.  @param new_matrix  the matrix is summed too; else it is the last one
   void clear(bool new_matrix);
   /// Of block (row, column), for add().
-  Place place(InterfaceNode row, InterfaceNode column) const;
+  SummedBlock block(InterfaceNode row, InterfaceNode column) const;
   /// block += values, by rows of `stride`, or their transpose.  @pre clear(true)
-  void add(const Place& block, const double* values, std::size_t stride, bool transposed);
+  void add(const SummedBlock& block, const double* values, std::size_t stride, bool transposed);
   /// Unknowns of a node or body.
   int size(InterfaceNode node) const { return static_cast<int>(begin_[node + 1] - begin_[node]); }
   double* right_side(InterfaceNode node) { return sum_.data() + begin_[node]; }
@@ -47,7 +47,7 @@ private:
   MPI_Comm communicator_;
   partition::Graph rows_;                     ///< each row's columns, itself included, ascending
   Table<InterfaceNode, std::size_t> begin_;   ///< its first unknown, and one past the last
-  std::vector<std::size_t> places_;           ///< per entry of rows_ its block
+  std::vector<std::size_t> block_begins_;     ///< per entry of rows_ its block
   std::vector<double> sum_;                   ///< right side, failures, matrix blocks
   std::size_t failures_;
   bool new_matrix_ = false;

@@ -62,12 +62,12 @@ private:
 
   struct OwnShare {
     elimination::BlockSource from;
-    InterfaceSystem::Place to;
+    InterfaceSystem::SummedBlock to;
   };
   struct LeftShare {
     const double* from;
     std::size_t stride;
-    InterfaceSystem::Place to;
+    InterfaceSystem::SummedBlock to;
     bool transposed;
   };
   std::vector<InterfaceNode> own_interface_;   ///< this rank's nodes

@@ -118,16 +118,16 @@ void NetworkPc::Impl::find_shares() {
     own_interface_.push_back(interface_node_.at(blocks_.first() + row));
     blocks_.for_each(row, [&](SolverNumber column, const elimination::BlockSource& from) {
       if (const auto found = interface_node_.find(column); found != interface_node_.end())
-        own_shares_.push_back({from, interface_->place(own_interface_.back(), found->second)});
+        own_shares_.push_back({from, interface_->block(own_interface_.back(), found->second)});
     });
   }
   for (const auto& block : elimination_->plan().kept) {
     const InterfaceNode row = kept_[at(block.row - interior_)], column = kept_[at(block.column - interior_)];
-    const InterfaceSystem::Place place = interface_->place(row, column);
+    const InterfaceSystem::SummedBlock summed = interface_->block(row, column);
     const double* const update = elimination_->update(block);
-    left_shares_.push_back({update, at(place.columns), place, false});
+    left_shares_.push_back({update, at(summed.columns), summed, false});
     if (symmetric_ && row != column)
-      left_shares_.push_back({update, at(place.columns), interface_->place(column, row), true});
+      left_shares_.push_back({update, at(summed.columns), interface_->block(column, row), true});
   }
 }
 

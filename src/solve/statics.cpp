@@ -8,7 +8,7 @@
 
 #include "cablenet/petsc/queries.hpp"
 #include "cablenet/solve/relaxation.hpp"
-#include "failed_place.hpp"
+#include "failed_part.hpp"
 
 namespace cablenet::solve {
 namespace {
@@ -277,10 +277,10 @@ bool Statics::conclude(bool converged) {
   return converged;
 }
 
-FailedPlace Statics::failed_place() {
+FailedPart Statics::failed_part() {
   KnownFailure known;
   if (linear_.elimination) known.singular_node = linear_.elimination->pivots().singular_node;
-  return worst_place(assembler_, r_, known);
+  return worst_part(assembler_, r_, known);
 }
 
 }   // namespace cablenet::solve

@@ -36,7 +36,7 @@ void differentiate(const bodies::StageMotion& motion, const bodies::StageForces&
     Eigen::Map<Eigen::Matrix<double, 12, 1>>(all.data()).noalias() = by.lazyProduct(r);
     columns = all;
   };
-  fill(motion.by_place, tangent.x);
+  fill(motion.by_position, tangent.x);
   fill(motion.by_acceleration, tangent.a);
   if (is_damped) fill(motion.by_velocity, tangent.v);
   const Vector3 lever = forces.lever * r;
@@ -98,7 +98,7 @@ bool BodySet::place(const Stage& stage, bool conserving, const NodeData& data, c
     for (int k = body.first_carried; k < body.first_carried + body.carried; ++k) {
       const auto& [node, index, r] = network_.carried[at(k)];
       NodeMotion& here = data.outside[node.value() - data.owned];
-      Map3(here.x) = Const3(nodes.x(body.node)) + motion.place * r;
+      Map3(here.x) = Const3(nodes.x(body.node)) + motion.position * r;
       Map3(here.v) = Const3(nodes.v(body.node)) + motion.velocity * r;
       if (data.a != nullptr) Map3(here.a) = Const3(nodes.a(body.node)) + motion.acceleration * r;
       Map3(data.outside_r + 3 * std::ptrdiff_t{node.value() - data.owned}).setZero();

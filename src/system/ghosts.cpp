@@ -51,7 +51,7 @@ GhostExchange::GhostExchange(const partition::LocalNetwork& network, MPI_Comm co
   for (const LocalNode node : network.sent) places_.push_back(network.begin[node]);
   std::vector<PetscSFNode> places;
   for (std::size_t i = 0; i < network.ghost_owner.size(); ++i)
-    places.push_back({network.ghost_owner[i], network.ghost_slot[i]});
+    places.push_back({network.ghost_owner[i], network.ghost_index[i]});
   std::vector<PetscInt> leaves(places.size());
   std::iota(leaves.begin(), leaves.end(), 0);
   nodes_.set_up(communicator, places_.size(), leaves, places);
@@ -67,7 +67,7 @@ void GhostExchange::set_up_bodies(const partition::LocalNetwork& network, MPI_Co
   for (std::size_t i = 0; i < network.ghost_owner.size(); ++i)
     if (network.blocks.size(network.ghost_number[i]) > 3) {
       leaves.push_back(static_cast<PetscInt>(i));
-      places.push_back({network.ghost_owner[i], network.ghost_slot[i]});
+      places.push_back({network.ghost_owner[i], network.ghost_index[i]});
     }
   rotations_.set_up(communicator, places_.size(), std::move(leaves), std::move(places));
 }

@@ -169,7 +169,7 @@ TEST(DynamicsRun, WhereItCannotGoOnItNamesTheElement) {
   const Option never("-ts_max_reject", "0");
   Trajectory run(meeting, long_steps, 12, PETSC_COMM_WORLD);
   EXPECT_EQ(run.verdict, Verdict::failed);
-  EXPECT_EQ(run.dynamics().failed_place().element, 3);
+  EXPECT_EQ(run.dynamics().failed_part().element, 3);
   EXPECT_EQ(run.network().element_name(3), "ab, element 1 of 1");
   EXPECT_NE(run.dynamics().failure().find("DIVERGED"), std::string::npos) << run.dynamics().failure();
   EXPECT_TRUE(run.steps.empty());
@@ -183,7 +183,7 @@ TEST(DynamicsRun, AFailureLeavesTheLastGoodState) {
   const Option unreachable("-snes_atol", "1e-30");
   Trajectory run(shaken, time_of(generalized_alpha, 0.4, 0.1), 0.4, PETSC_COMM_WORLD);
   EXPECT_EQ(run.verdict, Verdict::failed);
-  const int element = run.dynamics().failed_place().element;
+  const int element = run.dynamics().failed_part().element;
   EXPECT_GE(element, 0);
   EXPECT_LT(element, 3);
   EXPECT_NE(run.dynamics().failure().find("DIVERGED"), std::string::npos) << run.dynamics().failure();

@@ -20,7 +20,7 @@ std::vector<bool> flags(int vertices, const std::vector<int>& set) {
 
 struct Order {
   std::vector<int> order;
-  std::vector<int> later;   ///< neighbours left, fill included, per place in the order
+  std::vector<int> later;   ///< neighbours left, fill included, per vertex in the order
 };
 
 /// Fails the test unless the order has every vertex that is not kept once.

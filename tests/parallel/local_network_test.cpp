@@ -91,9 +91,9 @@ TEST_P(LocalNetwork, GhostsStandWhereTheirOwnersSendThem) {
   std::partial_sum(count.begin(), count.end(), begin.begin() + 1);
   std::vector<int> all(at(begin.back()));
   MPI_Allgatherv(sent.data(), mine, MPI_INT, all.data(), count.data(), begin.data(), MPI_INT, PETSC_COMM_WORLD);
-  ASSERT_EQ(here_.ghost_slot.size(), at(here_.ghosts));
-  for (std::size_t g = 0; g < here_.ghost_slot.size(); ++g)
-    EXPECT_EQ(all.at(at(begin[at(here_.ghost_owner[g])] + here_.ghost_slot[g])), here_.ghost_number[g].value());
+  ASSERT_EQ(here_.ghost_index.size(), at(here_.ghosts));
+  for (std::size_t g = 0; g < here_.ghost_index.size(); ++g)
+    EXPECT_EQ(all.at(at(begin[at(here_.ghost_owner[g])] + here_.ghost_index[g])), here_.ghost_number[g].value());
 }
 
 TEST_P(LocalNetwork, InteriorsOfDifferentRanksDoNotMeet) {

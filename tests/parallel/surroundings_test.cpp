@@ -30,7 +30,7 @@ const std::string profile = "current: {profile: [[-2.5, 0.2, -0.4, 0.1], [-1.2, 
 const std::string waves =
     "surface: -1.1, depth: 8, waves: [{height: 0.5, period: 2.1, direction: 35, phase: 40}, {height: 0.2, period: 1.3, "
     "direction: -70}]";
-const std::vector<Named> places{
+const std::vector<Named> settings{
     {"Uniform", "  fluid: {density: 1025, current: {velocity: [0.8, 0.3, -0.2]}}\n"},
     {"Profile", "  fluid: {density: 1025, " + profile + "}\n"},
     {"Surface", "  fluid: {density: 1025, surface: -1.1, current: {velocity: [0.8, 0.3, 0]}}\n"},
@@ -105,14 +105,14 @@ const std::vector<Method> methods{{"EnergyMomentum", Scheme::energy_momentum, 1,
                                   {"Plain", Scheme::plain, 0.4, 0.05, 0}};
 
 struct Case {
-  Named place, thing;
+  Named setting, thing;
   Method method;
-  std::string name() const { return place.name + thing.name + method.name; }
+  std::string name() const { return setting.name + thing.name + method.name; }
   friend void PrintTo(const Case& c, std::ostream* out) { *out << c.name(); }
 };
 
-network::Network network_of(const Named& place, const Named& thing) {
-  const std::string text = "environment:\n" + place.text + types + thing.text + "time: {end: 1, step: 0.1}\n";
+network::Network network_of(const Named& setting, const Named& thing) {
+  const std::string text = "environment:\n" + setting.text + types + thing.text + "time: {end: 1, step: 0.1}\n";
   return network::build_network(scene::read_scene(text, "test.yaml"));
 }
 
@@ -142,7 +142,7 @@ system::Vector tangent_along(System& system, const Stages& s, bool with_residual
 
 class SurroundedTangent : public testing::TestWithParam<Case> {
 protected:
-  network::Network network_ = network_of(GetParam().place, GetParam().thing);
+  network::Network network_ = network_of(GetParam().setting, GetParam().thing);
   system::ForceRule rule_{GetParam().method.scheme, GetParam().method.xi, elements::Tangent::exact};
 };
 
@@ -185,9 +185,9 @@ TEST_P(SurroundedTangent, AllNumbersOfRanksAgree) {
 
 std::vector<Case> cases() {
   std::vector<Case> all;
-  for (const Named& place : places)
+  for (const Named& setting : settings)
     for (const Named& thing : things)
-      for (const Method& method : methods) all.push_back({place, thing, method});
+      for (const Method& method : methods) all.push_back({setting, thing, method});
   return all;
 }
 
@@ -196,14 +196,14 @@ INSTANTIATE_TEST_SUITE_P(All, SurroundedTangent, testing::ValuesIn(cases()),
 
 class Instant : public testing::TestWithParam<std::tuple<std::size_t, std::size_t>> {
 protected:
-  const Named& place_ = places[std::get<0>(GetParam())];
+  const Named& setting_ = settings[std::get<0>(GetParam())];
   const Named& thing_ = things[std::get<1>(GetParam())];
   system::ForceRule rule_{Scheme::plain, 0, elements::Tangent::exact};
 };
 
 /// At a time at which the waves are elsewhere than at 0.
 TEST_P(Instant, TheMassMatrixIsTheForcesDerivativeByTheAcceleration) {
-  System system(network_of(place_, thing_), rule_, PETSC_COMM_WORLD);
+  System system(network_of(setting_, thing_), rule_, PETSC_COMM_WORLD);
   Stages s(system, 0.5);
   s.stage = {1.3, 0, 0};
   system::TangentMatrix mass = system.assembler.make_tangent();
@@ -226,7 +226,7 @@ TEST_P(Instant, TheStaticTangentIsTheForcesDerivative) {
   Named still = thing_;
   if (const std::size_t law = still.text.find("{harmonic"); law != std::string::npos)
     still.text.replace(law, still.text.find("}}", law) + 2 - law, "fixed");
-  System system(network_of(place_, still), rule_, PETSC_COMM_WORLD);
+  System system(network_of(setting_, still), rule_, PETSC_COMM_WORLD);
   Stages s(system, 0.5);
   s.stage = {0.4, 0, 0};
   const Vector3 frame = system::StaticForces::frame_velocity(system.assembler, s.stage.t, 1);
@@ -248,7 +248,7 @@ TEST_P(Instant, TheStaticTangentIsTheForcesDerivative) {
 INSTANTIATE_TEST_SUITE_P(All, Instant,
                          testing::Combine(testing::Range<std::size_t>(0, 6), testing::Range<std::size_t>(0, 5)),
                          [](const auto& item) {
-                           return places[std::get<0>(item.param)].name + things[std::get<1>(item.param)].name;
+                           return settings[std::get<0>(item.param)].name + things[std::get<1>(item.param)].name;
                          });
 
 }   // namespace

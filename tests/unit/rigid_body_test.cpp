@@ -82,7 +82,7 @@ TEST_P(RigidBodyMaps, DerivativesAreThoseOfTheValues) {
       return ((after - before) / (2 * h) - by).cwiseAbs().maxCoeff();
     };
     const auto part = [k](const Stacked& stacked) -> Matrix3 { return stacked.block<3, 3>(3 * k, 0); };
-    EXPECT_LE(error(plus.motion.place, minus.motion.place, part(motion.by_place)), 1e-6 * size);
+    EXPECT_LE(error(plus.motion.position, minus.motion.position, part(motion.by_position)), 1e-6 * size);
     EXPECT_LE(error(plus.motion.velocity, minus.motion.velocity, part(motion.by_velocity)), 1e-6 * size);
     EXPECT_LE(error(plus.motion.acceleration, minus.motion.acceleration, part(motion.by_acceleration)), 1e-6 * size);
     EXPECT_LE(error(plus.forces.lever, minus.forces.lever, part(forces.by_lever)), 1e-6 * size);
@@ -116,20 +116,20 @@ TEST_P(RigidBodyRotation, TheQuaternionsSignIsTheOneGiven) {
   }
 }
 
-/// R' = R skew(w), and the acceleration of an attachment is the second derivative of its place.
+/// R' = R skew(w), and the acceleration of an attachment is the second derivative of its position.
 TEST_P(RigidBodyRotation, AttachmentsMoveAsTheAttitudeTurns) {
   const Properties p = body(GetParam());
   const RotationState s = stage_of(GetParam());
   const double h = 1e-4;
-  const auto place = [&](double t) {
+  const auto position = [&](double t) {
     RotationState later = s;
     later.y += t * s.dy + 0.5 * t * t * s.ddy;
-    return evaluated(p, {}, {}, later).motion.place;
+    return evaluated(p, {}, {}, later).motion.position;
   };
   const auto [now, forces] = evaluated(p, {}, {}, s);
-  EXPECT_LE(((place(h) - place(-h)) / (2 * h) - now.velocity).norm(), 1e-7);
-  EXPECT_LE(((place(h) - 2 * now.place + place(-h)) / (h * h) - now.acceleration).norm(), 1e-6);
-  EXPECT_LE((now.place * now.place.transpose() - Matrix3::Identity()).norm(), 1e-14);
+  EXPECT_LE(((position(h) - position(-h)) / (2 * h) - now.velocity).norm(), 1e-7);
+  EXPECT_LE(((position(h) - 2 * now.position + position(-h)) / (h * h) - now.acceleration).norm(), 1e-6);
+  EXPECT_LE((now.position * now.position.transpose() - Matrix3::Identity()).norm(), 1e-14);
 }
 
 /// Euler's equations in the world frame: turn^T (R (I w' + w x I w + drag - torque)), the quaternion's gauge apart.
@@ -138,7 +138,7 @@ TEST_P(RigidBodyRotation, OwnForcesAreEulersEquations) {
   const RotationState s = stage_of(GetParam());
   const auto [now, forces] = evaluated(p, {}, {}, s);
   const Vector3 w = angular_velocity(GetParam(), s);
-  const Matrix3 R = now.place, spin = R.transpose() * now.acceleration;
+  const Matrix3 R = now.position, spin = R.transpose() * now.acceleration;
   const Vector3 dw(0.5 * (spin(2, 1) - spin(1, 2)), 0.5 * (spin(0, 2) - spin(2, 0)), 0.5 * (spin(1, 0) - spin(0, 1)));
   const Vector3 drag = (p.linear_drag + p.quadratic_drag.cwiseProduct(w.cwiseAbs())).cwiseProduct(w);
   const Vector3 torque = p.inertia * dw + w.cross(p.inertia * w) + drag - p.torque;

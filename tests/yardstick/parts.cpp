@@ -84,8 +84,8 @@ struct System {
                end = graph.adjacent.begin() + graph.first[at(i) + 1];
     const auto found = std::find(begin, end, j);
     if (i != j && found == end) return {};
-    const int place = i == j ? 0 : static_cast<int>(found - begin) + 1;
-    return cablenet::elimination::block_source(9 * (graph.first[at(i)] + i + place), 3, 0);
+    const int behind = i == j ? 0 : static_cast<int>(found - begin) + 1;
+    return cablenet::elimination::block_source(9 * (graph.first[at(i)] + i + behind), 3, 0);
   }
 
   /// Seconds for factoring and solving, the least of several.

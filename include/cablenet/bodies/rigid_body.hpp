@@ -70,11 +70,11 @@ struct StepRule {
 /// A map's derivatives by the unknowns, one below the other: times r it is that of the map's r, (3, 4) column-major.
 using Stacked = Eigen::Matrix<double, 12, 3>;
 
-/// An attachment r moves as X_a + place r, X_a' + velocity r, X_a'' + acceleration r, where place and velocity lie
-/// between the step's two ends.
+/// An attachment r moves as X_a + position r, X_a' + velocity r, X_a'' + acceleration r, where position and velocity
+/// lie between the step's two ends.
 struct StageMotion {
-  Matrix3 place, velocity, acceleration;
-  Stacked by_place = Stacked::Zero(), by_velocity = by_place, by_acceleration = by_place;
+  Matrix3 position, velocity, acceleration;
+  Stacked by_position = Stacked::Zero(), by_velocity = by_position, by_acceleration = by_position;
 };
 
 /// What makes the attitude turn.

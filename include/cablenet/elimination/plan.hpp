@@ -43,7 +43,7 @@ struct Plan {
   std::vector<bool> touched;
   std::vector<Kept> kept;
   /// Per block k and pair (i, j) of its later neighbours, row after row (symmetric: j not after i): where the update of
-  /// (i, j) goes; ~place where it is the first there.
+  /// (i, j) goes; ~offset where it is the first there.
   std::vector<std::int64_t> targets;
   /// If not uniform: where they begin in their regions, and the ends.
   std::vector<std::int64_t> mixed_pivots, mixed_couplings;

@@ -58,7 +58,7 @@ struct LocalNetwork {
   Interface interface;                      ///< of all ranks, as in Partition
   std::vector<SolverNumber> ghost_number;   ///< of the ghosts
   std::vector<int> ghost_owner;             ///< rank
-  std::vector<int> ghost_slot;              ///< its index in its owner's `sent`
+  std::vector<int> ghost_index;             ///< its index in its owner's `sent`
   std::vector<LocalNode> sent;              ///< owned nodes that are ghosts elsewhere
   Table<LocalNode, SceneNode> scene_node;
   Table<LocalNode, bool> primary;   ///< this rank speaks for it

@@ -32,7 +32,7 @@ public:
   /// Why the last attempt failed, e.g. "Newton's method did not converge (DIVERGED_MAX_IT)".
   const std::string& failure() const { return failure_; }
   /// Where (on any rank) the failed attempt's residual was worst or undefined.
-  FailedPlace failed_place();
+  FailedPart failed_part();
 
 private:
   void create_stepper(const char* prefix);

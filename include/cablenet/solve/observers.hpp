@@ -29,7 +29,7 @@ enum class Verdict {
 };
 
 /// Where a step failed: numbers in network::Network, -1 for what it is not.
-struct FailedPlace {
+struct FailedPart {
   int element = -1;
   int body = -1;
   bool left_domain = false;   ///< the body, by an attitude that its description or the step cannot follow

@@ -42,7 +42,7 @@ public:
   /// It would be left after a disturbance: some pivots of the tangent are negative.
   bool is_unstable() const { return negative_pivots_ > 0; }
   const std::string& failure() const { return failure_; }
-  FailedPlace failed_place();
+  FailedPart failed_part();
   std::string linear_solver() const { return describe(ksp_, linear_); }
 
 private:

@@ -1,4 +1,4 @@
-#include "failed_place.hpp"
+#include "failed_part.hpp"
 
 #include <cmath>
 
@@ -12,20 +12,20 @@ constexpr double unnatural = 1e300;
 
 }   // namespace
 
-FailedPlace worst_place(const system::Assembler& assembler, Vec residual, const KnownFailure& known) {
+FailedPart worst_part(const system::Assembler& assembler, Vec residual, const KnownFailure& known) {
   const auto& network = assembler.network();
   const double* values = nullptr;
   check(VecGetArrayRead(residual, &values));
   // Bodies are counted downwards from -1.
   struct {
     double size;
-    int place;
+    int part;
   } worst{-1, 0};
-  const auto look_at = [&](LocalNode node, int unknowns, int place) {
+  const auto look_at = [&](LocalNode node, int unknowns, int part) {
     if (!network.is_owned(node)) return;
     double size = Eigen::Map<const Eigen::VectorXd>(values + network.begin[node].value(), unknowns).norm();
     if (!std::isfinite(size) || network.number(node) == known.singular_node) size = unnatural;
-    if (size > worst.size) worst = {size, place};
+    if (size > worst.size) worst = {size, part};
   };
   for (std::size_t i = 0; i < network.elements.size(); ++i)
     for (const LocalNode node : network.elements[i].node) look_at(node, 3, network.scene_element[i]);
@@ -35,8 +35,8 @@ FailedPlace worst_place(const system::Assembler& assembler, Vec residual, const 
   if (known.outside_element >= 0) worst = {2 * unnatural, known.outside_element};
   if (known.outside_body >= 0) worst = {3 * unnatural, -1 - known.outside_body};
   MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, assembler.communicator());
-  if (worst.place >= 0) return {worst.place, -1, false};
-  return {-1, -1 - worst.place, worst.size > 2 * unnatural};
+  if (worst.part >= 0) return {worst.part, -1, false};
+  return {-1, -1 - worst.part, worst.size > 2 * unnatural};
 }
 
 }   // namespace cablenet::solve

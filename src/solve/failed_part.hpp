@@ -12,6 +12,6 @@ struct KnownFailure {
 };
 
 /// Where, on any rank, a residual is worst or undefined.  Collective.
-FailedPlace worst_place(const system::Assembler& assembler, Vec residual, const KnownFailure& known);
+FailedPart worst_part(const system::Assembler& assembler, Vec residual, const KnownFailure& known);
 
 }   // namespace cablenet::solve
