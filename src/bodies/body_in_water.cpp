@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "cablenet/environment/water.hpp"
+
 namespace cablenet::bodies {
 namespace {
 

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "cablenet/base/index.hpp"
+#include "cablenet/bodies/rigid_body.hpp"
 
 namespace cablenet::network {
 namespace {

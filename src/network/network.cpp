@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "cablenet/bodies/rigid_body.hpp"
+
 namespace cablenet::network {
 
 std::string Network::element_name(int element) const {

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "cablenet/elements/cable.hpp"
 #include "cablenet/output/body_box.hpp"
 
 namespace cablenet::output {

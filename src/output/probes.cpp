@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablenet/elements/cable.hpp"
+
 namespace cablenet::output {
 namespace {
 

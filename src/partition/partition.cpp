@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "cablenet/bodies/rigid_body.hpp"
 #include "cablenet/partition/cut.hpp"
 
 namespace cablenet::partition {

@@ -5,6 +5,8 @@
 
 #include "parts.hpp"
 
+#include "cablenet/environment/water.hpp"
+
 namespace cablenet::scene {
 
 namespace {

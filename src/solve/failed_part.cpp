@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "cablenet/bodies/rigid_body.hpp"
+
 namespace cablenet::solve {
 namespace {
 

@@ -5,6 +5,7 @@
 
 #include "access.hpp"
 #include "body_set.hpp"
+#include "cablenet/bodies/rigid_body.hpp"
 #include "cablenet/petsc/object_state.hpp"
 #include "cablenet/petsc/phase.hpp"
 #include "element_loop.hpp"

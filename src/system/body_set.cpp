@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cablenet/bodies/body_in_water.hpp"
 #include "cablenet/bodies/rotation.hpp"
 
 namespace cablenet::system {

@@ -4,6 +4,8 @@
 
 #include "access.hpp"
 #include "body_set.hpp"
+#include "cablenet/bodies/rigid_body.hpp"
+#include "cablenet/elements/cable.hpp"
 #include "cablenet/system/assembler.hpp"
 #include "element_loop.hpp"
 

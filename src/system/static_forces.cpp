@@ -7,6 +7,9 @@
 #include "static_law.hpp"
 #include "sweep.hpp"
 
+#include "cablenet/bodies/rigid_body.hpp"
+#include "cablenet/elements/cable.hpp"
+
 namespace cablenet::system {
 namespace {
 

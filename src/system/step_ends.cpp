@@ -1,4 +1,5 @@
 #include "body_set.hpp"
+#include "cablenet/bodies/rigid_body.hpp"
 #include "cablenet/system/assembler.hpp"
 #include "starts.hpp"
 

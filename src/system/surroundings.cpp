@@ -1,6 +1,7 @@
 #include "access.hpp"
 #include "attached_surroundings.hpp"
 #include "body_set.hpp"
+#include "cablenet/bodies/body_in_water.hpp"
 #include "cablenet/petsc/phase.hpp"
 
 /// Water and bed, for scenes that have them.

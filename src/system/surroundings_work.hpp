@@ -1,5 +1,6 @@
 #pragma once
 #include "cablenet/elements/cable_in_water_loads.hpp"
+#include "cablenet/environment/bed_contact.hpp"
 #include "element_loop.hpp"
 
 /// What water and bed do to an element in the loop over elements.  All add to what the force laws have left.

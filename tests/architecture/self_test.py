@@ -103,5 +103,34 @@ class Sizes(unittest.TestCase):
             self.assertIn(f"{limit + 1} lines, at most {limit}", printed)
 
 
+class Rebuilds(unittest.TestCase):
+    """A kernel that a header of every source in src/app/ passes on."""
+    ROOMS = ["--rooms", "elements", "--data", "elements/cable_data.hpp"]
+    TREE = {"include/cablenet/elements/cable_data.hpp": "",
+            "include/cablenet/elements/cable.hpp": '#include "cablenet/elements/cable_data.hpp"\n',
+            "src/app/near.hpp": '#include "cablenet/elements/cable.hpp"\n'}
+
+    def rebuilds(self, sources, changed={}):
+        users = {f"src/app/user_{i}.cpp": '#include "near.hpp"\n' for i in range(sources)}
+        return check("rebuilds.py", {**self.TREE, **users, **changed}, self.ROOMS)
+
+    def test_users_are_counted_through_headers(self):
+        # One more, src/solve/dynamics.cpp, is in the good tree.
+        for sources, status in ((14, 0), (15, 1)):
+            found, printed = self.rebuilds(sources)
+            self.assertEqual(found, status, printed)
+            self.assertIn(f"elements/cable.hpp: {sources + 1} files", printed)
+            self.assertEqual("src/app/user_0.cpp" in printed, status == 1, printed)
+
+    def test_data_may_be_everywhere(self):
+        found, printed = self.rebuilds(15, {"src/app/near.hpp": '#include "cablenet/elements/cable_data.hpp"\n'})
+        self.assertEqual(found, 0, printed)
+
+    def test_data_header_that_is_gone(self):
+        status, printed = check("rebuilds.py", {}, self.ROOMS)
+        self.assertEqual(status, 1, printed)
+        self.assertIn("elements/cable_data.hpp: there is no such header", printed)
+
+
 if __name__ == "__main__":
     unittest.main()

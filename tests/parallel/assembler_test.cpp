@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "../support/networks.hpp"
+#include "cablenet/elements/cable.hpp"
 
 using namespace cablenet;
 using namespace cablenet::test;

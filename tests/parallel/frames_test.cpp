@@ -6,6 +6,7 @@
 
 #include "../support/networks.hpp"
 #include "../support/scenes.hpp"
+#include "cablenet/elements/cable.hpp"
 
 using namespace cablenet;
 using namespace cablenet::test;

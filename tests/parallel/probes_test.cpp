@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "../support/networks.hpp"
+#include "cablenet/elements/cable.hpp"
 
 using namespace cablenet;
 using namespace cablenet::test;

@@ -1,4 +1,4 @@
-#include "cablenet/environment/bed.hpp"
+#include "cablenet/environment/bed_contact.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "cablenet/environment/water.hpp"
+
 namespace cablenet::bodies {
 namespace {
 

@@ -1,6 +1,7 @@
 #pragma once
 #include "cablenet/base/linear_algebra.hpp"
-#include "cablenet/environment/water.hpp"
+#include "cablenet/bodies/body_data.hpp"
+#include "cablenet/environment/fluid.hpp"
 
 /// What water does to a rigid body's centre of gravity and to a point: in body axes, with u the water's velocity there
 /// less the body's, w its acceleration less the body's,
@@ -13,22 +14,6 @@
 /// Source: Faltinsen, Sea Loads on Ships and Offshore Structures (1990), ch. 3, 7.
 /// Tests: tests/unit/body_in_water_test.cpp
 namespace cablenet::bodies {
-
-struct BodyInWater {
-  Vector3 linear = Vector3::Zero();          ///< [N s/m]
-  Vector3 quadratic = Vector3::Zero();       ///< [N s^2/m^2]
-  Vector3 added = Vector3::Zero();           ///< [kg]
-  double radius = 0;                         ///< of the sphere that is wetted at the surface [m]
-  Vector3 added_inertia = Vector3::Zero();   ///< what Properties::inertia has of the water [kg m^2]
-};
-
-/// A thing at a node: no axes.
-struct PointInWater {
-  double displaced = 0;   ///< rho V [kg]
-  double drag = 0;        ///< 1/2 rho CdA [kg/m]
-  double added = 0;       ///< [kg]
-  double radius = 0;      ///< as above [m]
-};
 
 struct PointMotion {
   Vector3 x, v, a;

@@ -1,6 +1,7 @@
 #pragma once
 #include "cablenet/base/linear_algebra.hpp"
 #include "cablenet/base/shift.hpp"
+#include "cablenet/bodies/body_data.hpp"
 
 /// A rigid body: the position X of its centre of gravity and its attitude, a quaternion q of four unknowns of which
 /// none is ever singular, or the papers' roll, pitch, yaw.  A cable's end is fastened at x = X + R r.
@@ -17,31 +18,11 @@
 /// Tests: tests/unit/rigid_body_test.cpp
 namespace cablenet::bodies {
 
-/// What turns: nothing (a point mass), or an attitude described in one of two ways.
-enum class Rotation { none, euler, quaternion };
-
 /// Beyond its position: 0, 3 or 4.
 int rotation_unknowns(Rotation);
 
-using Vector4 = Eigen::Vector4d;
 using Matrix4 = Eigen::Matrix4d;
 using Matrix34 = Eigen::Matrix<double, 3, 4>;
-
-struct Properties {
-  Rotation rotation = Rotation::none;
-  Matrix3 inertia = Matrix3::Zero();              ///< about the centre of gravity, body axes [kg m^2]
-  Vector3 torque = Vector3::Zero();               ///< constant, body axes [N m]
-  Quaternion attitude = Quaternion::Identity();   ///< of what does not turn
-  Vector3 linear_drag = Vector3::Zero();          ///< against turning, body axes [N m s], >= 0
-  Vector3 quadratic_drag = Vector3::Zero();       ///< [N m s^2], >= 0
-};
-
-/// The attitude's unknowns and their first two derivatives; those that a body has not are zero.
-struct RotationState {
-  Vector4 y = Vector4::Zero();
-  Vector4 dy = Vector4::Zero();
-  Vector4 ddy = Vector4::Zero();
-};
 
 /// The unknowns of an attitude and an angular velocity (body axes).
 RotationState rotation_state(Rotation, const Quaternion& attitude, const Vector3& w);

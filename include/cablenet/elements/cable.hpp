@@ -1,5 +1,6 @@
 #pragma once
 #include "cablenet/base/linear_algebra.hpp"
+#include "cablenet/elements/cable_data.hpp"
 
 /// Two-node cable element in nodal-position form: the unknowns are the node positions themselves, so large rigid motion
 /// needs no co-rotational frame.  The internal force on nodes 1, 2 is (-f, +f) with one vector f, so that an element's
@@ -8,29 +9,11 @@
 /// 757, and Kuhl & Crisfield, IJNME 45 (1999) 569.  Tests: tests/unit/cable_test.cpp
 namespace cablenet::elements {
 
-/// What a cable is made of.
-struct CableMaterial {
-  double axial_stiffness;   ///< EA [N], > 0
-  double axial_damping;     ///< force per strain rate [N s], >= 0; Rayleigh's stiffness part (gamma EA) included
-  double mass_per_length;   ///< of unstretched cable [kg/m], > 0
-  double mass_damping;      ///< Rayleigh's mass part, beta [1/s], >= 0
-  bool tension_only;        ///< a slack element (l < L) carries no force, damping included
-};
-
-/// Node 2 relative to node 1.
-struct Chord {
-  Vector3 d;   ///< x2 - x1 [m], not zero
-  Vector3 w;   ///< v2 - v1 [m/s]
-};
-
 /// Derivatives of the force by the chord.
 struct ForceTangent {
   Matrix3 d;   ///< [N/m]
   Matrix3 w;   ///< [N s/m]
 };
-
-/// exact: consistent with the force; secant: the papers' K = EA/L e e^T, which leaves the turning of the chord out.
-enum class Tangent { exact, secant };
 
 /// T = EA (l/L - 1) + c l'/L,  0 when slack and tension_only.  [N]
 /// @param L unstretched length [m], > 0
@@ -64,18 +47,6 @@ double cable_strain_energy(const CableMaterial&, double L, const Vector3& d);
 
 /// v^T M v / 2 with the consistent mass M = rho A L/6 [[2, 1], [1, 2]] x I3.  [J]
 double cable_kinetic_energy(const CableMaterial&, double L, const Vector3& v1, const Vector3& v2);
-
-/// a + beta v at the two nodes [m/s^2].
-struct EndAccelerations {
-  Vector3 at1;
-  Vector3 at2;
-};
-
-/// On the two nodes [N].
-struct EndForces {
-  Vector3 on1;
-  Vector3 on2;
-};
 
 /// M q, q = a + beta v at the two nodes; M as in cable_kinetic_energy.  [N]
 inline EndForces cable_inertia(const CableMaterial& m, double L, const Vector3& q1, const Vector3& q2) {

@@ -3,7 +3,8 @@
 
 #include "cablenet/base/linear_algebra.hpp"
 #include "cablenet/base/shift.hpp"
-#include "cablenet/environment/water.hpp"
+#include "cablenet/elements/cable_data.hpp"
+#include "cablenet/environment/fluid.hpp"
 
 /// What water does to a two-node cable element: Morison's drag, added mass normal to the cable, buoyancy and the
 /// waves' pressure gradient, per unstretched length, integrated with two Gauss points.
@@ -14,15 +15,6 @@
 /// Source: Morison et al., Petroleum Trans. AIME 189 (1950) 149; MoorDyn's documentation for cables.
 /// Tests: tests/unit/cable_in_water_test.cpp
 namespace cablenet::elements {
-
-/// A cable's material in water.
-struct CableInWater {
-  double displaced;         ///< rho A [kg/m]
-  double added;             ///< rho A Ca [kg/m]
-  double normal_drag;       ///< 1/2 rho Cdn d [kg/m^2]
-  double tangential_drag;   ///< 1/2 rho Cdt pi d [kg/m^2]
-  double diameter;          ///< [m]
-};
 
 /// The motion of an element's two nodes.
 struct EndMotion {

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "cablenet/elements/cable_in_water.hpp"
+#include "cablenet/environment/water.hpp"
 
 /// Morison's load per length of a wet cable, inlined by cable_in_water_loads.hpp.  Source and tests as in
 /// cable_in_water.hpp.

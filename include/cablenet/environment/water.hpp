@@ -1,9 +1,6 @@
 #pragma once
-#include <Eigen/Core>
-#include <optional>
-#include <vector>
-
 #include "cablenet/base/linear_algebra.hpp"
+#include "cablenet/environment/fluid.hpp"
 
 /// The water: current, free surface, linear (Airy) waves.  z is up; the still surface is at Fluid::surface, the waves'
 /// own height z' = z - surface <= 0 below it, the bed of their theory at z' = -depth.
@@ -16,36 +13,6 @@
 /// Source: Dean & Dalrymple, Water Wave Mechanics for Engineers and Scientists (1991), ch. 3, 4.
 /// Tests: tests/unit/water_test.cpp
 namespace cablenet::environment {
-
-struct CurrentLayer {
-  double z;           ///< [m]
-  Vector3 velocity;   ///< [m/s]
-};
-
-struct Wave {
-  double amplitude;            ///< a, half the height [m]
-  double frequency;            ///< omega [rad/s]
-  double number;               ///< k [1/m]
-  Eigen::Vector2d direction;   ///< unit, towards which it runs
-  double phase;                ///< [rad]
-};
-
-struct Fluid {
-  double density = 0;                  ///< [kg/m^3], > 0
-  std::optional<double> surface;       ///< z of the still surface [m]; none: water everywhere
-  std::vector<CurrentLayer> current;   ///< ascending z, linear between, constant beyond; empty: still water
-  std::vector<Wave> waves;             ///< need surface and depth
-  double depth = 0;                    ///< below the surface [m]; > 0 where there are waves
-
-  /// The current depends on the height, or there are waves.
-  bool varies() const { return current.size() > 1 || !waves.empty(); }
-  /// The free surface stays this close to the still one.  [m]
-  double reach() const {
-    double sum = 0;
-    for (const Wave& wave : waves) sum += wave.amplitude;
-    return sum;
-  }
-};
 
 /// k > 0 of omega^2 = g k tanh(k depth).  [1/m]
 /// @param frequency [rad/s], > 0   @param depth [m], > 0   @param gravity [m/s^2], > 0

@@ -7,8 +7,8 @@
 
 #include "cablenet/base/index.hpp"
 #include "cablenet/base/linear_algebra.hpp"
-#include "cablenet/bodies/rigid_body.hpp"
-#include "cablenet/elements/cable.hpp"
+#include "cablenet/bodies/body_data.hpp"
+#include "cablenet/elements/cable_data.hpp"
 #include "cablenet/network/surroundings.hpp"
 #include "cablenet/scene/motion.hpp"
 

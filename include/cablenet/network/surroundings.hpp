@@ -2,10 +2,10 @@
 #include <optional>
 #include <vector>
 
-#include "cablenet/bodies/body_in_water.hpp"
-#include "cablenet/elements/cable_in_water.hpp"
+#include "cablenet/bodies/body_data.hpp"
+#include "cablenet/elements/cable_data.hpp"
 #include "cablenet/environment/bed.hpp"
-#include "cablenet/environment/water.hpp"
+#include "cablenet/environment/fluid.hpp"
 
 namespace cablenet::scene {
 struct Scene;

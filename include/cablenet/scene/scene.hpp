@@ -7,7 +7,7 @@
 
 #include "cablenet/base/linear_algebra.hpp"
 #include "cablenet/environment/bed.hpp"
-#include "cablenet/environment/water.hpp"
+#include "cablenet/environment/fluid.hpp"
 #include "cablenet/scene/body.hpp"
 #include "cablenet/scene/motion.hpp"
 #include "cablenet/scene/time.hpp"

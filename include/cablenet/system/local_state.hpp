@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "cablenet/elements/cable.hpp"
+#include "cablenet/elements/cable_data.hpp"
 #include "cablenet/partition/local_network.hpp"
 
 namespace cablenet::system {

@@ -1,5 +1,5 @@
 #pragma once
-#include "cablenet/elements/cable.hpp"
+#include "cablenet/elements/cable_data.hpp"
 #include "cablenet/scene/scene.hpp"
 
 namespace cablenet::system {
