@@ -2,7 +2,7 @@
 #include <string>
 
 #include "cablenet/scene/time.hpp"
-#include "cablenet/system/rules.hpp"
+#include "cablenet/system/force_rule.hpp"
 
 /// What the scene and the command line together ask for.
 namespace cablenet::app {

@@ -103,8 +103,8 @@ void Frames::collect_bodies(const system::LocalState& state) {
   for (std::size_t b = 0; b < at(here.own_bodies); ++b) {
     const std::size_t body = at(here.bodies[b].body);
     const auto& [q, w] = state.bodies[b];
-    const Vector3 x = system::LocalState::at(state.x, here.bodies[b].node);
-    const Vector3 v = system::LocalState::at(state.v, here.bodies[b].node);
+    const Vector3 x = state.position(here.bodies[b].node);
+    const Vector3 v = state.velocity(here.bodies[b].node);
     std::copy(x.begin(), x.end(), bodies_.data() + 3 * body);
     std::copy(v.begin(), v.end(), bodies_.data() + 3 * (bodies + body));
     std::copy_n(std::array{q.w(), q.x(), q.y(), q.z()}.begin(), 4, bodies_.data() + 6 * bodies + 4 * body);

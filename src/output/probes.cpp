@@ -43,12 +43,8 @@ Table<SceneNode, bool> bare_ends(const network::Network& network) {
 Probes::Probes(const scene::Scene& scene, const network::Network& network, const system::Assembler& assembler)
     : assembler_(assembler), columns_{"time"}, energy_(scene.output.energy) {
   const partition::LocalNetwork& here = assembler.network();
-  Lookup where{local_nodes(here, network.position.size()),
-               own_elements(here, network.elements.size()),
-               bare_ends(network),
-               {},
-               {}};
-  for (std::size_t i = 0; i < here.loads.size(); ++i) where.load[here.loads[i].node] = static_cast<int>(i);
+  Lookup where{
+      local_nodes(here, network.position.size()), own_elements(here, network.elements.size()), bare_ends(network), {}};
   for (int i = 0; i < here.own_elements; ++i)
     for (int side = 0; side < 2; ++side)
       if (const LocalNode node = here.elements[at(i)].node[at(side)]; !here.is_free(node))
@@ -72,7 +68,6 @@ void Probes::add_point(const scene::Scene& scene, const network::Network& networ
   probe.prescribed = point.motion.has_value();
   const LocalNode local = where.node[node];
   if (local.exists() && here.primary[local]) probe.node = local;
-  if (const auto load = where.load.find(probe.node); load != where.load.end()) probe.load = load->second;
   if (const auto ends = where.ends.find(local); ends != where.ends.end()) probe.ends = ends->second;
   points_.push_back(probe);
   for (const char* name : motion_names) columns_.push_back(point.name + "." + name);
@@ -102,38 +97,23 @@ void Probes::add_cable(const network::Network& network, int index, const Lookup&
   }
 }
 
-Vector3 Probes::end_force(const system::LocalState& state, const ElementEnd& end) const {
-  const partition::LocalNetwork& here = assembler_.network();
-  const partition::LocalElement& element = here.elements[at(end.element)];
-  const elements::CableMaterial& material = here.materials[at(element.material)];
-  const elements::EndForces forces = elements::cable_end_forces(
-      material, element.length, here.gravity, state.chord(element), state.inertial(element, material.mass_damping));
-  const Vector3 force = end.side == 0 ? forces.on1 : forces.on2;
-  if (here.surroundings.empty()) return force;
-  return force - assembler_.surroundings_force(element, at(end.side));
-}
-
 void Probes::put(std::size_t column, const Vector3& value) {
   for (std::size_t k = 0; k < 3; ++k) row_[column + k] += value(static_cast<Eigen::Index>(k));
 }
 
 void Probes::put_motion(std::size_t column, const system::LocalState& state, LocalNode node) {
-  put(column, system::LocalState::at(state.x, node));
-  put(column + 3, system::LocalState::at(state.v, node));
-  put(column + 6, system::LocalState::at(state.a, node));
+  put(column, state.position(node));
+  put(column + 3, state.velocity(node));
+  put(column + 6, state.acceleration(node));
 }
 
 const std::vector<double>& Probes::row(const system::LocalState& state) {
-  using system::LocalState;
   const partition::LocalNetwork& here = assembler_.network();
   std::fill(row_.begin(), row_.end(), 0.0);
   for (const PointProbe& probe : points_) {
     if (probe.node.exists()) put_motion(probe.column, state, probe.node);
-    for (const ElementEnd& end : probe.ends) put(probe.column + 9, end_force(state, end));
-    if (probe.prescribed && probe.load >= 0) {
-      const auto& [node, mass, force] = here.loads[at(probe.load)];
-      put(probe.column + 9, mass * (LocalState::at(state.a, node) + Vector3(0, 0, here.gravity)) - force);
-    }
+    for (const ElementEnd& end : probe.ends) put(probe.column + 9, assembler_.end_force(end.element, at(end.side)));
+    if (probe.prescribed && probe.node.exists()) put(probe.column + 9, assembler_.node_force(probe.node));
   }
   for (const BodyProbe& probe : bodies_) {
     if (!probe.node.exists()) continue;
@@ -147,7 +127,8 @@ const std::vector<double>& Probes::row(const system::LocalState& state) {
     const partition::LocalElement& element = here.elements[at(probe.end.element)];
     const double tension =
         elements::cable_tension(here.materials[at(element.material)], element.length, state.chord(element));
-    row_[probe.column] = std::copysign(end_force(state, probe.end).norm(), tension < 0 ? -1 : 1);
+    row_[probe.column] =
+        std::copysign(assembler_.end_force(probe.end.element, at(probe.end.side)).norm(), tension < 0 ? -1 : 1);
   }
   if (energy_) {
     const system::Energies e = assembler_.energies();

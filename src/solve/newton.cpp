@@ -22,7 +22,7 @@ AlphaStep read_alpha_step(TS ts) {
   return {alpha_m, alpha_f, gamma, beta, dt};
 }
 
-system::TangentRequest Dynamics::tangent_request() { return {tangent_, alpha_.shift_v(), alpha_.shift_a()}; }
+system::TangentRequest Dynamics::tangent_request() { return {tangent_, {1, alpha_.shift_v(), alpha_.shift_a()}}; }
 
 /// A retry searches the line as well; the next step is cheap again.
 void Dynamics::choose_line_search(bool retry) {
@@ -67,7 +67,7 @@ PetscErrorCode Dynamics::jacobian(TS, PetscReal, Vec x, Vec v, Vec a, PetscReal 
     run.tangent_.set_identity(shift_a);
   } else {
     if (petsc::state_of(x) != run.tangent_at_)
-      run.assembler_.tangent(run.stage(), x, v, a, {run.tangent_, shift_v, shift_a});
+      run.assembler_.tangent(run.stage(), x, v, a, {run.tangent_, {1, shift_v, shift_a}});
     run.tangent_.publish();
   }
   run.tangent_at_ = {};

@@ -1,38 +1,76 @@
 #include "cablenet/system/assembler.hpp"
 
 #include <algorithm>
-#include <type_traits>
 
-#include "access.hpp"
-#include "body_set.hpp"
-#include "cablenet/bodies/rigid_body.hpp"
-#include "cablenet/petsc/object_state.hpp"
 #include "cablenet/petsc/phase.hpp"
-#include "element_loop.hpp"
-#include "sweep.hpp"
+#include "network_start.hpp"
+#include "prescribed_nodes.hpp"
+#include "terms.hpp"
 
 namespace cablenet::system {
 namespace {
 
 using petsc::check;
 
-Eigen::Map<Vector3> as_vector(double* values) { return Eigen::Map<Vector3>(values); }
+/// Each term is built from the network alone.
+template <class... T>
+std::tuple<T...> make_terms(const partition::LocalNetwork& network, std::tuple<T...>*) {
+  return {T(network)...};
+}
+
+/// Calls visit(term) for all terms in their order.
+template <class Tuple, class Visit>
+void for_each_term(Tuple& terms, Visit&& visit) {
+  std::apply([&](auto&... term) { (visit(term), ...); }, terms);
+}
+
+/// Prescribed nodes are where their motions have them.
+void copy_state(const partition::LocalNetwork& network, double t, const AnyNodes& nodes, LocalState& state) {
+  state.t = t;
+  for (auto* field : {&state.x, &state.v, &state.a}) field->resize(3 * at(network.nodes));
+  for (LocalNode node(0); node.value() < network.nodes; ++node) {
+    std::copy_n(nodes.x(node), 3, state.x.data() + 3 * at(node));
+    std::copy_n(nodes.v(node), 3, state.v.data() + 3 * at(node));
+    std::copy_n(nodes.a(node), 3, state.a.data() + 3 * at(node));
+  }
+  for (const auto& [node, motion] : network.prescribed) {
+    const scene::Kinematics k = motion.at(t);
+    std::copy_n(k.x.data(), 3, state.x.data() + 3 * at(node));
+    std::copy_n(k.v.data(), 3, state.v.data() + 3 * at(node));
+    std::copy_n(k.a.data(), 3, state.a.data() + 3 * at(node));
+  }
+}
 
 }   // namespace
 
+struct Assembler::Parts {
+  Parts(const partition::LocalNetwork& network, MPI_Comm communicator)
+      : outside(network),
+        exchange(network, communicator),
+        prescribed(network),
+        pattern(network),
+        terms(make_terms(network, static_cast<Terms*>(nullptr))) {
+    const auto couple = [this] { for_each_term(terms, [this](auto& term) { term.couplings(pattern); }); };
+    couple();
+    pattern.fix(communicator);
+    couple();
+    for_each_term(terms, [this](const auto& term) { has_rates = has_rates || term.has_rates(); });
+  }
+
+  BodyTerm& bodies() { return std::get<BodyTerm>(terms); }
+
+  OutsideNodes outside;
+  GhostExchange exchange;
+  PrescribedNodes prescribed;
+  BlockPattern pattern;
+  Terms terms;
+  bool has_rates = false;
+};
+
 Assembler::Assembler(partition::LocalNetwork network, ForceRule rule, MPI_Comm communicator)
-    : network_(std::move(network)),
-      rule_(rule),
-      communicator_(communicator),
-      is_elastic_(std::all_of(network_.materials.begin(), network_.materials.end(), elements::is_elastic)),
-      ghosts_(network_, communicator),
-      starts_(std::make_unique<Starts>()),
-      bodies_(std::make_unique<BodySet>(network_, !is_elastic_ || !network_.surroundings.empty())) {
+    : network_(std::move(network)), rule_(rule), communicator_(communicator) {
   petsc::register_phases();
-  outside_.resize(at(network_.nodes - network_.owned));
-  outside_r_.resize(3 * outside_.size());
-  ghost_rotations_.resize(at(network_.ghosts));
-  prescribed_.resize(network_.prescribed.size());
+  parts_ = std::make_unique<Parts>(network_, communicator_);
 }
 
 Assembler::~Assembler() = default;
@@ -47,125 +85,145 @@ Vector Assembler::make_vector() const {
 }
 
 TangentMatrix Assembler::make_tangent() const {
-  const bool rates = std::any_of(network_.materials.begin(), network_.materials.end(),
-                                 [](const auto& material) { return material.axial_damping > 0; });
-  const bool two_ended = rule_.scheme == scene::Scheme::energy_momentum;
-  const bool dry = network_.surroundings.empty();
-  const bool nodes_alone = rule_.tangent == elements::Tangent::secant || (!two_ended && !rates);
-  const bool symmetric = nodes_alone && dry && network_.blocks.uniform();
-  return {network_, symmetric, communicator_};
+  bool is_symmetric = true;
+  for_each_term(parts_->terms, [&](const auto& term) { is_symmetric = is_symmetric && term.is_symmetric(rule_); });
+  return {network_, parts_->pattern, is_symmetric, communicator_};
 }
 
-void Assembler::fill_initial(Vec x, Vec v) const {
-  for (const auto& [vector, values] : {std::pair{x, &network_.position}, std::pair{v, &network_.velocity}}) {
-    double* array = nullptr;
-    check(VecGetArrayWrite(vector, &array));
-    for (LocalNode node(0); network_.is_owned(node); ++node)
-      as_vector(array + network_.begin[node].value()) = (*values)[node];
-    for (int b = 0; b < network_.own_bodies; ++b) {
-      const partition::LocalBody& body = network_.bodies[at(b)];
-      const bodies::Vector4& rotation = vector == x ? body.start.y : body.start.dy;
-      const int unknowns = bodies::rotation_unknowns(body.properties.rotation);
-      std::copy_n(rotation.data(), unknowns, array + network_.begin[body.node].value() + 3);
-    }
-    check(VecRestoreArrayWrite(vector, &array));
-  }
+void Assembler::fill_initial(Vec x, Vec v) const { fill_start(network_, x, v); }
+
+void Assembler::start_from(double t, Vec x, const Vector3& velocity) {
+  const Vector resting = make_vector();
+  set_start(observe(t, x, resting, resting), velocity, network_);
 }
 
-template <class Visit>
-void Assembler::visit_law(const Stage& stage, Visit&& visit) const {
-  const auto choose = [&]<bool general>() {
-    switch (rule_.scheme) {
-      case scene::Scheme::energy_momentum:
-        return visit(EnergyMomentumLaw<general>{rule_.tangent, stage.alpha_f, stage.dt, rule_.axial_dissipation});
-      case scene::Scheme::generalized_alpha:
-        return visit(AveragedLaw<general>{{rule_.tangent}, stage.alpha_f});
-      case scene::Scheme::plain:
-        return visit(StageLaw<general>{rule_.tangent});
-    }
-  };
-  is_elastic_ ? choose.template operator()<false>() : choose.template operator()<true>();
-}
-
-void Assembler::begin_step(double t, Vec x, Vec v) {
-  Access access(*this, x, v, nullptr, nullptr);
+void Assembler::begin(const Situation& situation, Vec x, Vec v) {
+  const OpenVectors vectors(network_, parts_->outside, x, v, nullptr, nullptr);
+  const NodeData& data = vectors.data();
   evaluated_ = {};
-  access.begin_exchange();
-  start_prescribed(t);
-  for (std::size_t i = 0; i < prescribed_.size(); ++i) {
-    NodeMotion& here = outside_[at(network_.prescribed[i].node.value() - network_.owned)];
-    as_vector(here.x) = prescribed_[i].start.x;
-    as_vector(here.v) = prescribed_[i].start.v;
-  }
-  access.finish_exchange();
-  bodies_->begin_step(access.data);
-  visit_law({}, [&](const auto& law) { record_starts(law, access); });
+  parts_->exchange.begin(data.x, data.v, nullptr, data.outside, data.ghost_rotations);
+  parts_->prescribed.place_start(situation, data.outside);
+  parts_->exchange.end();
+  Evaluation evaluation{network_, data, situation, rule_, parts_->exchange, parts_->bodies()};
+  // Bodies place the nodes that they carry, which the others look at.
+  parts_->bodies().begin_step(evaluation);
+  for_each_term(parts_->terms, [&]<class T>(T& term) {
+    if constexpr (!std::is_same_v<T, BodyTerm>) term.begin_step(evaluation);
+  });
 }
 
-void Assembler::add_loads(double t, Access& access, const TangentRequest* request) {
-  const AnyNodes nodes{access.data};
-  if (access.has_residual())
-    for (const auto& [node, mass, force] : network_.loads)
-      as_vector(nodes.r(node)) +=
-          mass * (Eigen::Map<const Vector3>(nodes.a(node)) + Vector3(0, 0, network_.gravity)) - force;
-  if (request != nullptr) request->matrix.open();
-  if (!network_.wet_points.empty()) add_wet_points(t, access, request);
-  if (request == nullptr) return;
-  const TangentTarget target{request->matrix.values(), nullptr, 0, 0};
-  for (std::size_t i = 0; i < network_.loads.size(); ++i)
-    put_block<AnyNodes>(target, request->matrix.load_slots()[i], 0, Matrix3::Zero(),
-                        network_.loads[i].mass * request->shift_a);
-  request->matrix.close();
+bool Assembler::evaluate_terms(const Situation& situation, Vec x, Vec v, Vec a, Vec r, const TangentRequest* request,
+                               bool must_exchange) {
+  const OpenVectors vectors(network_, parts_->outside, x, v, a, r);
+  const NodeData& data = vectors.data();
+  Evaluation evaluation{network_, data, situation, rule_, parts_->exchange, parts_->bodies()};
+  evaluation.has_rates = parts_->has_rates;
+  evaluation.has_residual = r != nullptr;
+  evaluation.is_exchanging = must_exchange;
+  evaluation.target.elements = parts_->pattern.elements().data();
+  if (must_exchange) {
+    parts_->exchange.begin(data.x, data.v, data.a, data.outside, data.ghost_rotations);
+    parts_->prescribed.place(situation, rule_.has_mean_acceleration(), data.outside);
+  }
+  if (request != nullptr) {
+    evaluation.has_tangent = true;
+    evaluation.target = {request->matrix.open(), evaluation.target.elements, request->shift, request->holds_water,
+                         request->steadiness};
+    parts_->bodies().clear_blocks(evaluation.target);
+  }
+  for_each_term(parts_->terms, [&](auto& term) { term.add(evaluation); });
+  if (request != nullptr) request->matrix.close();
+  evaluation.complete();
+  coincident_ = evaluation.coincident;
+  return evaluation.in_domain;
+}
+
+bool Assembler::evaluate(const Situation& situation, Vec x, Vec v, Vec a, Vec r, const TangentRequest* request) {
+  evaluated_ = {};
+  return evaluate_terms(situation, x, v, a, r, request, true);
 }
 
 bool Assembler::residual(const Stage& stage, Vec x, Vec v, Vec a, Vec r, const TangentRequest* request) {
-  coincident_ = -1;
   evaluated_ = petsc::state_of(x);
   evaluated_stage_ = stage;
-  Access access(*this, x, v, a, r);
-  access.begin_exchange();
-  set_prescribed(stage);
-  bool in_domain = true;
-  visit_law(stage, [&](const auto& law) { in_domain = run(law, stage, access, request); });
-  add_loads(stage.t + stage.alpha_f * stage.dt, access, request);
-  return in_domain;
+  return evaluate_terms({.stage = stage}, x, v, a, r, request, true);
 }
 
 void Assembler::tangent(const Stage& stage, Vec x, Vec v, Vec a, const TangentRequest& request) {
-  Access access(*this, x, v, a, nullptr);
-  if (petsc::state_of(x) != evaluated_ || stage != evaluated_stage_) {
-    access.begin_exchange();
-    set_prescribed(stage);
-    evaluated_ = petsc::state_of(x);
-    evaluated_stage_ = stage;
-  }
-  visit_law(stage, [&](const auto& law) { run(law, stage, access, &request); });
-  add_loads(stage.t + stage.alpha_f * stage.dt, access, &request);
+  const bool is_new = petsc::state_of(x) != evaluated_ || stage != evaluated_stage_;
+  evaluated_ = petsc::state_of(x);
+  evaluated_stage_ = stage;
+  evaluate_terms({.stage = stage}, x, v, a, nullptr, &request, is_new);
 }
 
 void Assembler::mass_matrix(double t, Vec x, Vec v, TangentMatrix& mass) {
   const Vector resting = make_vector();
-  evaluated_ = {};
-  Access access(*this, x, v, resting, nullptr);
-  access.begin_exchange();
-  start_prescribed(t);
-  set_prescribed({t, 0, 0});
-  const TangentRequest request{mass, 0, 1, 0};
-  run(NoLaw{}, {t, 0, 0}, access, &request);
-  add_loads(t, access, &request);
+  const TangentRequest request{mass, {0, 0, 1}};
+  evaluate({.stage = {t, 0, 0}, .internal = InternalForce::none}, x, v, resting, nullptr, &request);
 }
 
 void Assembler::force(double t, Vec x, Vec v, Vec force) {
   const Vector resting = make_vector();
-  evaluated_ = {};
-  Access access(*this, x, v, resting, force);
-  access.begin_exchange();
-  start_prescribed(t);
-  set_prescribed({t, 0, 0});
-  run(StageLaw<true>{rule_.tangent}, {t, 0, 0}, access, nullptr);
-  add_loads(t, access, nullptr);
-  access.close();
+  evaluate({.stage = {t, 0, 0}, .internal = InternalForce::of_instant}, x, v, resting, force, nullptr);
   check(VecScale(force, -1));
+}
+
+void Assembler::end_step(const Stage& stage, Vec x, Vec v) {
+  parts_->prescribed.end_step(stage, parts_->outside.forces.data());
+  StepEnd end{stage, rule_.conserves(stage, network_.surroundings.fluid.has_value()), nullptr, nullptr};
+  check(VecGetArray(x, &end.x));
+  check(VecGetArray(v, &end.v));
+  for_each_term(parts_->terms, [&](auto& term) { term.end_step(end); });
+  check(VecRestoreArray(v, &end.v));
+  check(VecRestoreArray(x, &end.x));
+}
+
+const LocalState& Assembler::observe(double t, Vec x, Vec v, Vec a) {
+  const OpenVectors vectors(network_, parts_->outside, x, v, a, nullptr);
+  const NodeData& data = vectors.data();
+  const Situation situation{.stage = {t, 0, 0}};
+  evaluated_ = {};
+  parts_->exchange.begin(data.x, data.v, data.a, data.outside, data.ghost_rotations);
+  Evaluation evaluation{network_, data, situation, rule_, parts_->exchange, parts_->bodies()};
+  evaluation.is_exchanging = true;
+  evaluation.complete();
+  copy_state(network_, t, AnyNodes{data}, state_);
+  state_.bodies = parts_->bodies().states(data);
+  return state_;
+}
+
+Energies Assembler::energies() const {
+  Energies sum;
+  sum.work = parts_->prescribed.work();
+  for_each_term(parts_->terms, [&](const auto& term) { term.add_energy(state_, sum); });
+  return sum;
+}
+
+Vector3 Assembler::end_force(int element, std::size_t end) const {
+  Vector3 sum = Vector3::Zero();
+  for_each_term(parts_->terms, [&](const auto& term) { sum += term.end_force(state_, element, end); });
+  return sum;
+}
+
+Vector3 Assembler::node_force(LocalNode node) const {
+  Vector3 sum = Vector3::Zero();
+  for_each_term(parts_->terms, [&](const auto& term) { sum += term.node_force(state_, node); });
+  return sum;
+}
+
+ForceScales Assembler::force_scales() {
+  ForceSums sums;
+  for_each_term(parts_->terms, [&](const auto& term) { term.add_scales(sums); });
+  return ForceScales::of(sums, communicator_);
+}
+
+int Assembler::nearly_singular_body(Vec x) const { return find_nearly_singular(network_, x, communicator_); }
+
+int Assembler::outside_body() const { return parts_->bodies().outside(); }
+
+void Assembler::archive(Archive& archive) {
+  parts_->prescribed.archive(archive);
+  for_each_term(parts_->terms, [&](auto& term) { term.archive(archive); });
 }
 
 }   // namespace cablenet::system

@@ -82,7 +82,7 @@ Field times_direction(System& system, const State& s, system::TangentMatrix& tan
 Field tangent(System& system, const State& s) {
   system::TangentMatrix matrix = system.assembler.make_tangent();
   system.assembler.tangent(s.stage, system.vector(s.x), system.vector(s.v), system.vector(s.a),
-                           {matrix, s.shift_v, s.shift_a});
+                           {matrix, {1, s.shift_v, s.shift_a}});
   return times_direction(system, s, matrix);
 }
 
@@ -133,7 +133,7 @@ TEST_P(Assembler, ResidualAndTangentInOnePass) {
   const Field alone = tangent(everywhere_, state_);
   system::TangentMatrix matrix = everywhere_.assembler.make_tangent();
   const system::Vector both = everywhere_.assembler.make_vector();
-  const system::TangentRequest request{matrix, state_.shift_v, state_.shift_a};
+  const system::TangentRequest request{matrix, {1, state_.shift_v, state_.shift_a}};
   for (int repetition = 0; repetition < 2; ++repetition) {
     everywhere_.assembler.residual(state_.stage, everywhere_.vector(state_.x), everywhere_.vector(state_.v),
                                    everywhere_.vector(state_.a), both, &request);
@@ -186,7 +186,7 @@ TEST_P(Assembler, OtherTypesOfMatricesHoldTheSameTangent) {
     for (const double factor : {1.0, 2.0}) {
       const double shift_a = factor * state_.shift_a;
       everywhere_.assembler.tangent(state_.stage, everywhere_.vector(state_.x), everywhere_.vector(state_.v),
-                                    everywhere_.vector(state_.a), {matrix, state_.shift_v, shift_a});
+                                    everywhere_.vector(state_.a), {matrix, {1, state_.shift_v, shift_a}});
       const Field found = times_direction(everywhere_, state_, matrix);
       const double error = size(difference(found, expected)) / size(expected);
       EXPECT_EQ(error <= 1e-13, factor == 1) << type << ": " << error << " with a factor of " << factor;

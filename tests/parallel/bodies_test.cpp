@@ -73,7 +73,7 @@ TEST_P(BodyTangent, IsTheResidualsDerivative) {
   system.assembler.begin_step(s.stage.t, s.x0, s.v0);
   system::TangentMatrix tangent = system.assembler.make_tangent();
   const system::Vector r = system.assembler.make_vector(), expected = slope(system, s, 1e-5);
-  const system::TangentRequest request{tangent, s.shift_v, s.shift_a};
+  const system::TangentRequest request{tangent, {1, s.shift_v, s.shift_a}};
   for (const bool together : {true, false}) {
     if (together)
       system.assembler.residual(s.stage, s.x, s.v, s.a, r, &request);

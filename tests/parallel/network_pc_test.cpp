@@ -24,7 +24,7 @@ public:
     const system::Stage stage{0, dt, 0.5};
     system_.assembler.begin_step(0, system_.vector(disturbed(network.position, 0.02, 1)), system_.vector(zero));
     system_.assembler.tangent(stage, system_.vector(disturbed(network.position, 0.02, 500)), system_.vector(zero),
-                              system_.vector(zero), {tangent_, 2 / dt, 4 / (dt * dt)});
+                              system_.vector(zero), {tangent_, {1, 2 / dt, 4 / (dt * dt)}});
     tangent_.publish();
     pc_ = solve::NetworkPc::make(system_.assembler.network(), tangent_.matrix(), any_work);
     petsc::check(KSPCreate(PETSC_COMM_WORLD, ksp_.out()));

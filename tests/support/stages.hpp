@@ -42,6 +42,7 @@ struct Stages {
 
   system::Stage stage;
   double shift_v, shift_a, shift_x = 1;
+  bool is_calm = false;   ///< as in system::Situation
   system::Vector x0, v0, x, v, a, direction;
 };
 
@@ -52,7 +53,7 @@ inline system::Vector residual_at(System& system, const Stages& s, double step) 
   petsc::check(VecWAXPY(x, step * s.shift_x, s.direction, s.x));
   petsc::check(VecWAXPY(v, step * s.shift_v, s.direction, s.v));
   petsc::check(VecWAXPY(a, step * s.shift_a, s.direction, s.a));
-  EXPECT_TRUE(system.assembler.residual(s.stage, x, v, a, r));
+  EXPECT_TRUE(system.assembler.evaluate({.stage = s.stage, .is_calm = s.is_calm}, x, v, a, r, nullptr));
   return r;
 }
 

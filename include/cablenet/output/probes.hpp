@@ -36,7 +36,6 @@ private:
   struct PointProbe {
     std::size_t column;
     LocalNode node{};   ///< where this rank speaks for it
-    int load = -1;      ///< local index of its load, likewise
     bool prescribed = false;
     std::vector<ElementEnd> ends{};   ///< this rank's elements at it, if prescribed
   };
@@ -56,14 +55,12 @@ private:
     Table<SceneNode, LocalNode> node;
     std::vector<int> element;   ///< -1: not here
     Table<SceneNode, bool> bare_end;
-    std::map<LocalNode, int> load;
     std::map<LocalNode, std::vector<ElementEnd>> ends;   ///< of prescribed nodes
   };
 
   void add_point(const scene::Scene& scene, const network::Network& network, int index, const Lookup& where);
   void add_body(const network::Network& network, int index);
   void add_cable(const network::Network& network, int index, const Lookup& where);
-  Vector3 end_force(const system::LocalState& state, const ElementEnd& end) const;
   void put(std::size_t column, const Vector3& value);
   void put_motion(std::size_t column, const system::LocalState& state, LocalNode node);
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <cstddef>
 #include <vector>
 
 #include "cablenet/elements/cable_data.hpp"
@@ -7,12 +6,12 @@
 
 namespace cablenet::system {
 
-/// Energies and work, [J].  total() is constant where nothing dissipates.
+/// Energies and work [J].  total() is constant where nothing dissipates.
 struct Energies {
   double kinetic = 0;
   double strain = 0;
   double gravity = 0;   ///< m g z
-  double work = 0;      ///< by moved points and constant forces since the start
+  double work = 0;      ///< by moved points, forces and torques since the start
   double total() const { return kinetic + strain + gravity - work; }
 };
 
@@ -21,26 +20,25 @@ struct BodyState {
   Vector3 w;             ///< angular velocity, body axes [rad/s]
 };
 
-/// Positions, velocities, accelerations of this rank's local nodes: 3 doubles a node, in local order.
+/// Positions, velocities and accelerations of all local nodes at an instant: three doubles a node, in local order.
 struct LocalState {
+  using Node = Eigen::Map<const Vector3>;
+
   double t = 0;
   std::vector<BodyState> bodies;   ///< as LocalNetwork::bodies
   std::vector<double> x;           ///< [m]
   std::vector<double> v;           ///< [m/s]
   std::vector<double> a;           ///< [m/s^2]
 
-  static Eigen::Map<const Vector3> at(const std::vector<double>& values, LocalNode node) {
-    return Eigen::Map<const Vector3>(values.data() + 3 * cablenet::at(node));
-  }
-  static Eigen::Map<Vector3> at(std::vector<double>& values, LocalNode node) {
-    return Eigen::Map<Vector3>(values.data() + 3 * cablenet::at(node));
-  }
+  Node position(LocalNode node) const { return Node(x.data() + 3 * at(node)); }
+  Node velocity(LocalNode node) const { return Node(v.data() + 3 * at(node)); }
+  Node acceleration(LocalNode node) const { return Node(a.data() + 3 * at(node)); }
   elements::Chord chord(const partition::LocalElement& e) const {
-    return {at(x, e.node[1]) - at(x, e.node[0]), at(v, e.node[1]) - at(v, e.node[0])};
+    return {position(e.node[1]) - position(e.node[0]), velocity(e.node[1]) - velocity(e.node[0])};
   }
-  /// a + beta v at an element's two nodes.
+  /// a + beta v at an element's two nodes [m/s^2].
   elements::EndAccelerations inertial(const partition::LocalElement& e, double beta) const {
-    return {at(a, e.node[0]) + beta * at(v, e.node[0]), at(a, e.node[1]) + beta * at(v, e.node[1])};
+    return {acceleration(e.node[0]) + beta * velocity(e.node[0]), acceleration(e.node[1]) + beta * velocity(e.node[1])};
   }
 };
 

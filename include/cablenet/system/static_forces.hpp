@@ -1,8 +1,6 @@
 #pragma once
 #include "cablenet/system/assembler.hpp"
 
-/// The network's forces at an instant, in a frame in which nothing moves: without inertia and waves.
-/// Tests: tests/parallel/surroundings_test.cpp
 namespace cablenet::system {
 
 /// The tensions at an iterate [N].
@@ -14,21 +12,19 @@ struct TensionRange {
 /// What keeps a tangent definite away from equilibrium.
 struct Steadying {
   double pseudo_rate = 0;   ///< [1/s]
-  double steadiness = 0;    ///< as in TangentRequest; none in StaticRule::exact
+  double steadiness = 0;    ///< as in TangentRequest; none with StaticRule::exact
 };
 
-/// All member functions are collective.
+/// The network's forces at an instant, in a frame in which nothing moves: without inertia and waves.
+/// All member functions are collective unless they say otherwise.  Tests: tests/parallel/surroundings_test.cpp
 class StaticForces {
 public:
   /// @param velocity  of the frame [m/s]: the water and the bed move past it
   StaticForces(Assembler& assembler, double t, const Vector3& velocity);
-  ~StaticForces();
-  StaticForces(const StaticForces&) = delete;
-  StaticForces& operator=(const StaticForces&) = delete;
 
   /// The one velocity that all prescribed nodes have in the first fifth of the window.  Otherwise each component is the
-  /// middle of what occurs in it, or zero where they differ by more than a quarter of that: heave, a start from rest, a
-  /// point that stays.  [m/s]
+  /// middle of what occurs in the window, or zero where that varies by more than a quarter of the middle: heave, a
+  /// start from rest, a point that stays.  [m/s]
   /// @param window  from t on [s]
   static Vector3 frame_velocity(const Assembler& assembler, double t, double window);
 
@@ -39,22 +35,21 @@ public:
   /// r = internal forces - loads; with a matrix, also dr/dx + s^2 M + s dr/dv, s the pseudo-rate, published.  [N]
   /// @returns false on a rank where it is not defined
   bool residual(const StaticRule& rule, Vec x, Vec r, TangentMatrix* tangent, const Steadying& steadying);
-  /// What the loads alone leave: r without internal forces.
+  /// What the loads alone leave: r without internal forces, and without the bed.
   void loads(Vec x, Vec r);
   TensionRange tensions(Vec x);
   /// Makes x, moving with the frame, the network's start.
-  void start_from(Vec x);
+  void start_from(Vec x) { assembler_.start_from(t_, x, velocity_); }
 
 private:
-  static bool find_common_velocity(const Assembler& assembler, double t, double window, double tolerance,
-                                   Vector3& common);
-  void place_prescribed();
+  Situation situation(InternalForce internal, const StaticRule& rule) const;
   double bed_softness(const StaticRule& rule) const;
 
   Assembler& assembler_;
   double t_;
   Vector3 velocity_;
-  double stiffest_bed_ = 0;   ///< contact over an element, in stiffness, times EA [N]
+  double stiffest_bed_;    ///< the largest of contact over an element, in stiffness, times EA [N]
+  double softest_cable_;   ///< the least EA [N]
   Vector v_, resting_;
 };
 

@@ -1,14 +1,13 @@
 #pragma once
 #include "cablenet/elements/cable_step.hpp"
-#include "cablenet/system/rules.hpp"
 
 /// How an element's internal force is taken over a step, with its tangent by the stage's chord.  `general` as in
 /// cable_step.hpp; w, the velocity of node 2 relative to node 1, is zero and not looked at where it is false.
-namespace cablenet::system {
+namespace cablenet::elements {
 
 /// What a law is told about an element at the stage.
 struct ElementStage {
-  const elements::CableMaterial& material;
+  const CableMaterial& material;
   double L;
   Vector3 d;        ///< x2 - x1 [m]
   Vector3 w;        ///< v2 - v1 [m/s]
@@ -31,16 +30,16 @@ template <bool is_general>
 struct StageLaw {
   static constexpr bool general = is_general;
   using Start = NoStart;
-  elements::Tangent kind;
+  Tangent kind;
 
-  static Start start(const elements::CableMaterial&, double, const Vector3&, const Vector3&) { return {}; }
+  static Start start(const CableMaterial&, double, const Vector3&, const Vector3&) { return {}; }
   template <bool with_tangent>
   bool evaluate(const Start&, const ElementStage& e, Vector3& f, Matrix3& K) const {
-    const elements::Stretch s = elements::stretch(e.d);
-    const double T = elements::instant_tension<general>(e.material, e.L, s, e.w);
+    const Stretch s = stretch(e.d);
+    const double T = instant_tension<general>(e.material, e.L, s, e.w);
     f = T / s.l * s.d;
     if constexpr (with_tangent) {
-      const elements::ForceTangent tangent = elements::instant_tangent<general>(e.material, e.L, s, e.w, T, kind);
+      const ForceTangent tangent = instant_tangent<general>(e.material, e.L, s, e.w, T, kind);
       K = tangent.d;
       if constexpr (general) K += e.shift_v * tangent.w;
     }
@@ -56,9 +55,9 @@ struct AveragedLaw {
   StageLaw<general> end;
   double alpha_f;
 
-  static Start start(const elements::CableMaterial& m, double L, const Vector3& d, const Vector3& w) {
-    const elements::Stretch s = elements::stretch(d);
-    const Vector3 f = elements::instant_tension<general>(m, L, s, w) / s.l * d;
+  static Start start(const CableMaterial& m, double L, const Vector3& d, const Vector3& w) {
+    const Stretch s = stretch(d);
+    const Vector3 f = instant_tension<general>(m, L, s, w) / s.l * d;
     if constexpr (general)
       return {d, f, w};
     else
@@ -78,21 +77,19 @@ struct AveragedLaw {
 template <bool is_general>
 struct EnergyMomentumLaw {
   static constexpr bool general = is_general;
-  using Start = elements::Stretch;
-  elements::Tangent kind;
+  using Start = Stretch;
+  Tangent kind;
   double alpha_f;
   double dt;
   double xi;
 
-  static Start start(const elements::CableMaterial&, double, const Vector3& d, const Vector3&) {
-    return elements::stretch(d);
-  }
+  static Start start(const CableMaterial&, double, const Vector3& d, const Vector3&) { return stretch(d); }
   template <bool with_tangent>
   bool evaluate(const Start& s0, const ElementStage& e, Vector3& f, Matrix3& K) const {
-    const elements::Stretch s1 = elements::stretch(s0.d + (e.d - s0.d) / alpha_f);
-    const elements::TensionSlope tension = elements::step_tension<general>(e.material, e.L, s0.l, s1.l, dt, xi);
-    f = elements::energy_momentum_force(tension, s0, s1);
-    if constexpr (with_tangent) K = 1 / alpha_f * elements::energy_momentum_tangent(tension, s0, s1, kind);
+    const Stretch s1 = stretch(s0.d + (e.d - s0.d) / alpha_f);
+    const TensionSlope tension = step_tension<general>(e.material, e.L, s0.l, s1.l, dt, xi);
+    f = energy_momentum_force(tension, s0, s1);
+    if constexpr (with_tangent) K = 1 / alpha_f * energy_momentum_tangent(tension, s0, s1, kind);
     return s1.l > 0;
   }
 };
@@ -110,4 +107,4 @@ struct NoLaw {
   }
 };
 
-}   // namespace cablenet::system
+}   // namespace cablenet::elements

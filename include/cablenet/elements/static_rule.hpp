@@ -1,0 +1,21 @@
+#pragma once
+
+namespace cablenet::elements {
+
+/// What stands in for the internal force on the way to equilibrium.
+struct StaticRule {
+  enum class Kind {
+    strings,   ///< The tension is string_tension (l/L)^exponent.  Its energy is convex.  At exponent 1 the force is
+               ///< linear, so that the drawn shape does not matter, and water's loads are held in the tangent.  At
+               ///< large exponents the strings hardly stretch.
+    ropes,     ///< The forces are the cables' own.  The tangent's turning part takes the tension that the last
+               ///< linear solution predicted, or the strings' tension where string_tension is given; in any case at
+               ///< least least_tension.
+    exact      ///< The forces and the tangent are the cables' own.
+  } kind = Kind::exact;
+  double exponent = 1;
+  double string_tension = 0;   ///< [N]
+  double least_tension = 0;    ///< [N]
+};
+
+}   // namespace cablenet::elements

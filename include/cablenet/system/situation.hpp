@@ -1,0 +1,44 @@
+#pragma once
+#include <optional>
+
+#include "cablenet/base/linear_algebra.hpp"
+#include "cablenet/base/shift.hpp"
+#include "cablenet/system/stage.hpp"
+#include "cablenet/elements/static_rule.hpp"
+
+namespace cablenet::system {
+
+class TangentMatrix;
+using elements::StaticRule;
+
+/// What takes the place of the cables' internal force.
+enum class InternalForce {
+  of_step,      ///< as the scheme has it over the step
+  of_instant,   ///< at the stage's positions and velocities
+  of_statics,   ///< as Situation::rule has it
+  none          ///< no force; this leaves the mass matrix
+};
+
+/// Under which an evaluation is made.  The default is a step of the scene as it is.
+struct Situation {
+  Stage stage;
+  InternalForce internal = InternalForce::of_step;
+  StaticRule rule{};   ///< of InternalForce::of_statics
+  /// Prescribed nodes stand where they are at stage.t, and move at this velocity [m/s].  Without it they move as the
+  /// scene says.
+  std::optional<Vector3> frame{};
+  bool is_calm = false;      ///< The water has no waves.
+  double bed_softness = 1;   ///< The bed is so many times softer, its smoothing so many times wider.  0: no bed.
+};
+
+/// Where a tangent goes, and what it is by.
+struct TangentRequest {
+  TangentMatrix& matrix;
+  Shift shift;
+  bool holds_water = false;   ///< Water's loads do not follow positions.
+  /// A stiffness of bodies against turning, over the torque that their forces can have.  With it, water's loads on
+  /// bodies do not follow attitudes.
+  double steadiness = 0;
+};
+
+}   // namespace cablenet::system

@@ -1,0 +1,58 @@
+#pragma once
+#include <vector>
+
+#include "cablenet/bodies/carrying.hpp"
+#include "term.hpp"
+
+namespace cablenet::system {
+
+/// Rigid bodies: their inertia, their constant torques, and the nodes that they carry.  An evaluation places the
+/// carried nodes first.  The other terms leave forces and blocks on those.  This term comes last and collects them.
+/// Tests: tests/parallel/bodies_test.cpp
+class BodyTerm : public Term {
+public:
+  explicit BodyTerm(const partition::LocalNetwork& network);
+
+  /// Clears the bodies' own blocks of the matrix, before anything is added to them.
+  void clear_blocks(const TangentTarget& target) const;
+  /// Places the carried nodes at the stage and clears their forces.
+  void carry(Evaluation& evaluation);
+  const bodies::CarriedTangent& carried_tangent(LocalNode node) const;
+  /// Where parts of the block of the body that carries the node are added; nullptr for another rank's body.
+  bodies::BodyBlock* block_at(LocalNode node);
+  bodies::BodyBlock& block(int own_body) { return blocks_[at(own_body)]; }
+  const bodies::StageForces& forces(int body) const { return forces_[at(body)]; }
+  int unknowns(int body) const { return bodies::rotation_unknowns(network_.bodies[at(body)].properties.rotation); }
+  /// Index into Network::bodies of one that left its domain in the last evaluation; -1: none.
+  int outside() const { return outside_; }
+  /// Attitudes and angular velocities of all bodies here.
+  std::vector<BodyState> states(const NodeData& data) const;
+
+  /// Bodies with an attitude have blocks larger than 3x3 somewhere.
+  bool is_symmetric(const ForceRule&) const { return network_.blocks.uniform(); }
+  void couplings(BlockPattern& pattern);
+  void begin_step(Evaluation& evaluation);
+  void add(Evaluation& evaluation);
+  void end_step(const StepEnd& end);
+  void add_energy(const LocalState& state, Energies& sum) const;
+  void add_scales(ForceSums& sums) const;
+  void archive(Archive& archive) { archive.item("work of torques", work_); }
+
+private:
+  bodies::RotationState rotation(int body, const NodeData& data) const;
+  void carry_body(int body, const Evaluation& evaluation, const bodies::StepRule& rule, bodies::StageMotion& motion);
+  bodies::CarriedForces collect(int body, const NodeData& data) const;
+  double largest_torque(int body, const NodeData& data) const;
+  void add_block(int body, const TangentTarget& target);
+
+  const partition::LocalNetwork& network_;
+  std::vector<bodies::Start> starts_;
+  std::vector<bodies::StageForces> forces_;
+  std::vector<bodies::CarriedTangent> tangents_;
+  std::vector<bodies::BodyBlock> blocks_;
+  std::vector<Slot> slots_;
+  int outside_ = -1;
+  double work_ = 0;   ///< of the torques since the start [J]
+};
+
+}   // namespace cablenet::system

@@ -1,0 +1,38 @@
+#pragma once
+#include <tuple>
+#include <vector>
+
+#include "cablenet/elements/force_laws.hpp"
+#include "term.hpp"
+
+namespace cablenet::system {
+
+/// The cables' elements: inertia, weight, mass damping and the internal force, by the law that the situation asks for.
+/// It comes first, as it writes the elements' blocks, to which the others add.
+/// Tests: tests/parallel/assembler_test.cpp
+class CableTerm : public Term {
+public:
+  explicit CableTerm(const partition::LocalNetwork& network);
+
+  bool has_rates() const { return is_general_; }
+  bool is_symmetric(const ForceRule& rule) const;
+  void couplings(BlockPattern& pattern) { pattern.add_elements(); }
+  void begin_step(Evaluation& evaluation);
+  void add(Evaluation& evaluation);
+  void add_energy(const LocalState& state, Energies& sum) const;
+  void add_scales(ForceSums& sums) const;
+  Vector3 end_force(const LocalState& state, int element, std::size_t end) const;
+
+private:
+  template <class Law>
+  std::vector<typename Law::Start>& starts();
+
+  const partition::LocalNetwork& network_;
+  bool is_general_;   ///< Some material is damped, or goes slack.
+  /// What the laws keep of each element at the step's start: one array per kind.  Only the law in use has elements.
+  std::tuple<std::vector<elements::NoStart>, std::vector<elements::AveragedStart<false>>,
+             std::vector<elements::AveragedStart<true>>, std::vector<elements::Stretch>>
+      starts_;
+};
+
+}   // namespace cablenet::system

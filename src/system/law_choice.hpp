@@ -1,0 +1,18 @@
+#pragma once
+#include <variant>
+
+#include "cablenet/elements/static_law.hpp"
+#include "cablenet/system/force_rule.hpp"
+#include "cablenet/system/situation.hpp"
+
+namespace cablenet::system {
+
+/// What the cables' internal force can be in an evaluation.
+using LawChoice = std::variant<elements::EnergyMomentumLaw<false>, elements::EnergyMomentumLaw<true>,
+                               elements::AveragedLaw<false>, elements::AveragedLaw<true>, elements::StageLaw<false>,
+                               elements::StageLaw<true>, elements::StaticLaw, elements::NoLaw>;
+
+/// @param is_general  some material is damped, or goes slack
+LawChoice choose_law(const ForceRule& rule, const Situation& situation, bool is_general);
+
+}   // namespace cablenet::system

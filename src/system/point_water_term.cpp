@@ -1,0 +1,38 @@
+#include "point_water_term.hpp"
+
+#include "cablenet/bodies/body_in_water.hpp"
+#include "item_loops.hpp"
+
+namespace cablenet::system {
+namespace {
+
+struct PointWaterKernel {
+  static constexpr bool owns_slots = true;
+
+  const partition::LocalNetwork& network;
+  const environment::Fluid& fluid;
+  double t;
+
+  template <bool with_tangent, class Nodes, class Key>
+  bool evaluate(std::size_t i, Key node, const Nodes& nodes, NodeResponse& out) const {
+    using Const3 = Eigen::Map<const Vector3>;
+    const bodies::PointMotion motion{Const3(nodes.x(node)), Const3(nodes.v(node)), Const3(nodes.a(node))};
+    const bodies::PointLoad load = bodies::point_load(network.wet_points[i].water, fluid, t, network.gravity, motion);
+    out = {-load.force, -load.by_x, -load.by_v, -load.by_a};
+    return true;
+  }
+};
+
+}   // namespace
+
+void PointWaterTerm::couplings(BlockPattern& pattern) {
+  for (std::size_t i = 0; i < slots_.size(); ++i) slots_[i] = pattern.own(network_.wet_points[i].node);
+}
+
+void PointWaterTerm::add(Evaluation& evaluation) {
+  if (slots_.empty()) return;
+  const environment::Fluid& fluid = water_.fluid(evaluation.situation.is_calm);
+  add_to_nodes(evaluation, PointWaterKernel{network_, fluid, evaluation.time()}, network_.wet_points, slots_);
+}
+
+}   // namespace cablenet::system

@@ -1,0 +1,102 @@
+#pragma once
+#include "evaluation.hpp"
+
+/// How a kernel's forces and slopes reach nodes with unknowns of their own.  A kernel of two nodes answers with a
+/// response: `on`, the residuals on its nodes [N], and slope<i, j>(), the derivative of the residual on node i by the
+/// unknowns of node j [N/m].
+namespace cablenet::system {
+
+/// Of two nodes.  The forces depend on the chord alone, apart from a consistent mass: slopes are +K, -K and
+/// m [[2, 1], [1, 2]].
+struct ChordResponse {
+  std::array<Vector3, 2> on;
+  Matrix3 K;
+  double m;
+
+  template <int i, int j>
+  Matrix3 slope() const {
+    Matrix3 S = i == j ? K : Matrix3(-K);
+    S.diagonal().array() += (i == j ? 2 : 1) * m;
+    return S;
+  }
+};
+
+/// Of two nodes, without structure.
+struct PairResponse {
+  std::array<Vector3, 2> on;
+  std::array<std::array<Matrix3, 2>, 2> by;
+
+  template <int i, int j>
+  const Matrix3& slope() const {
+    return by[i][j];
+  }
+};
+
+/// Of one node, with its slopes by the node's position [N/m], velocity [N s/m] and acceleration [kg] apart.
+struct NodeResponse {
+  Vector3 on;
+  Matrix3 x, v, a;
+
+  Matrix3 slope(const Shift& shift) const { return shift.x * x + shift.v * v + shift.a * a; }
+};
+
+inline void put_row(double* to, bool add, double x, double y, double z) {
+  to[0] = add ? to[0] + x : x;
+  to[1] = add ? to[1] + y : y;
+  to[2] = add ? to[2] + z : z;
+}
+
+/// Writes or adds a block.  @param owns_slot  the slot is the kernel's own, so that it says which of the two
+template <class Nodes, bool owns_slot>
+void put_block(const TangentTarget& target, const Slot& slot, const Matrix3& K) {
+  if (Nodes::may_be_absent && slot.absent) return;
+  double* to = (Nodes::may_be_absent && slot.other ? target.values[1] : target.values[0]) + slot.offset;
+  for (int i = 0; i < 3; ++i, to += slot.stride) put_row(to, !owns_slot || slot.add, K(i, 0), K(i, 1), K(i, 2));
+}
+
+template <class Nodes, bool owns_slot, class Response>
+void put_blocks(const TangentTarget& target, const PairSlots& slots, const Response& response) {
+  put_block<Nodes, owns_slot>(target, slots[0], response.template slope<0, 0>());
+  put_block<Nodes, owns_slot>(target, slots[1], response.template slope<0, 1>());
+  put_block<Nodes, owns_slot>(target, slots[2], response.template slope<1, 0>());
+  put_block<Nodes, owns_slot>(target, slots[3], response.template slope<1, 1>());
+}
+
+/// What a kernel of two nodes does to nodes with unknowns of their own.
+template <bool with_residual, bool with_tangent, class Nodes, class Kernel>
+struct PairScatter {
+  const Kernel& kernel;
+  Nodes nodes;
+  const TangentTarget& target;
+  const Shift shift;
+
+  /// @returns false where the kernel is not defined
+  template <class Item>
+  [[gnu::flatten]] bool operator()(std::size_t i, const Item& item, const PairSlots& slots) const {
+    typename Kernel::Response response;
+    if (!kernel.template evaluate<with_residual, with_tangent>(i, item, nodes, shift, response)) return false;
+    if constexpr (with_residual)
+      for (std::size_t k = 0; k < 2; ++k) Eigen::Map<Vector3>(nodes.r(nodes.key(item, k))) += response.on[k];
+    if constexpr (with_tangent) put_blocks<Nodes, Kernel::owns_slots>(target, slots, response);
+    return true;
+  }
+};
+
+/// What a kernel of one node does to a node with unknowns of its own.  The kernel answers false where nothing acts.
+template <bool with_residual, bool with_tangent, class Nodes, class Kernel>
+struct NodeScatter {
+  const Kernel& kernel;
+  Nodes nodes;
+  const TangentTarget& target;
+  const Shift shift;
+
+  template <class Key>
+  [[gnu::flatten]] void operator()(std::size_t i, Key node, const Slot& slot) const {
+    NodeResponse response;
+    if (!kernel.template evaluate<with_tangent>(i, node, nodes, response)) return;
+    if constexpr (with_residual) Eigen::Map<Vector3>(nodes.r(node)) += response.on;
+    if constexpr (with_tangent) put_block<Nodes, Kernel::owns_slots>(target, slot, response.slope(shift));
+  }
+};
+
+}   // namespace cablenet::system
