@@ -12,8 +12,9 @@
 /// expanded.  Tests: tests/unit/read_test.cpp
 namespace cablenet::scene {
 
+/// What a cable's end says, before it is known what bears the name.
 struct Reference {
-  enum class Kind { named, cable, net } kind;   ///< named: a point, or body.attachment
+  enum class Kind { named, cable, net } kind = Kind::named;   ///< named: a point, or body.attachment
   std::string name;
   double at = 0;               ///< along a cable [m]
   std::array<int, 2> node{};   ///< of a net
@@ -21,9 +22,9 @@ struct Reference {
 };
 
 struct Repeat {
-  int count;
-  double every;     ///< along the tapped cable [m]
-  Vector3 offset;   ///< of each copy to the one before [m]
+  int count = 0;
+  double every = 0;                   ///< along the tapped cable [m]
+  Vector3 offset = Vector3::Zero();   ///< of each copy to the one before [m]
   Value value;
 };
 
@@ -49,19 +50,29 @@ struct CableDraft {
   int copies() const { return repeat ? repeat->count : 1; }
 };
 
+/// What the values of the keys at the top may look like.
+Form environment_form();
+Form cable_types_form();
+Form points_form();
+Form bodies_form();
+Form cables_form();
+Form nets_form();
+Form time_form();
+Form output_form();
+Form motion_form();
+
 /// Gravity, fluid and bed of the scene.
-void read_environment(const Section& top, Scene&);
-/// Without `time` the default: nothing but t = 0.
-Time read_time(const Section& top);
+void read_environment(const Value&, Scene&);
+Time read_time(const Value&);
 /// @pre the scene's time is read.
-Output read_output(const Section& top, const Time&, const SceneNames&);
+Output read_output(const std::optional<Value>&, const Time&, const SceneNames&);
 /// @pre the scene's environment is read.
-std::vector<CableType> read_cable_types(const Section& top, const Scene&, Names& types);
-std::vector<PointDraft> read_points(const Section& top, const Time&);
-std::vector<BodyDraft> read_bodies(const Section& top);
+std::vector<CableType> read_cable_types(const Value&, const Scene&, Names& types);
+std::vector<PointDraft> read_points(const Value&, const Time&);
+std::vector<BodyDraft> read_bodies(const Value&);
 Motion read_motion(const Value&, const Vector3& position, const Time&);
-std::vector<CableDraft> read_cables(const Section& top, const Names& types);
-std::vector<Net> read_nets(const Section& top, const Names& types, Names& nets);
+std::vector<CableDraft> read_cables(const Value&, const Names& types);
+std::vector<Net> read_nets(const Value&, const Names& types, Names& nets);
 
 /// @throws InputError if the scene has more nodes than an unknown's number can count.
 void check_size(const std::vector<CableDraft>&, const std::vector<Net>&, const Value& top);

@@ -3,21 +3,52 @@
 #include <fmt/format.h>
 
 #include "parts.hpp"
+#include "rows.hpp"
 
 namespace cablenet::scene {
 
+/// The state that a run starts from.
+enum class Initial { rest, equilibrium };
+template <>
+inline constexpr std::array<Choice<Initial>, 2> choices<Initial>{
+    {{Initial::rest, "rest"}, {Initial::equilibrium, "static"}}};
+
 namespace {
 
-/// @pre whether the scene is static is known.
-bool read_starts_static(const Section& top, bool is_static) {
-  const Value* initial = top.find("initial");
-  if (initial == nullptr) return is_static;
-  if (read_choice(*initial, {"rest", "static"}) == 1) return true;
-  if (is_static)
-    initial->fail(
+/// Sections are read one after the other, as most depend on some before.
+struct TopKeys {
+  std::string title;
+  std::optional<Value> environment, cable_types, points, bodies, cables, nets, time, output;
+  std::optional<Initial> initial;
+};
+
+const Table<TopKeys>& top_table() {
+  static const Table<TopKeys> table(
+      "A scene.", {{"title", text("a text"), standard, "What the scene is called.", &TopKeys::title},
+                   {"environment", later(environment_form()), absent("gravity alone"), "What surrounds the cables.",
+                    &TopKeys::environment},
+                   {"cable_types", later(cable_types_form()), absent("allowed without cables and nets only"),
+                    "What cables are made of.", &TopKeys::cable_types},
+                   {"points", later(points_form()), absent("none"), "Points where cables end.", &TopKeys::points},
+                   {"bodies", later(bodies_form()), absent("none"), "Rigid bodies.", &TopKeys::bodies},
+                   {"cables", later(cables_form()), absent("none"), "Cables.", &TopKeys::cables},
+                   {"nets", later(nets_form()), absent("none"), "Nets.", &TopKeys::nets},
+                   {"initial", choice<Initial>(), absent("rest; static in a scene without time"),
+                    "Whether a run starts as drawn (rest) or from the equilibrium (static).", &TopKeys::initial},
+                   {"time", later(time_form()), absent("the equilibrium is the result"),
+                    "How the scene goes through time.", &TopKeys::time},
+                   {"output", later(output_form()), absent("frames of positions and tensions alone"),
+                    "What is written.", &TopKeys::output}});
+  return table;
+}
+
+bool starts_static(const Section& top, const TopKeys& keys) {
+  if (!keys.initial) return !keys.time;
+  if (*keys.initial == Initial::rest && !keys.time)
+    top.find("initial")->fail(
         "rest is not allowed; expected static or no initial at all, as a scene without time is solved for its "
         "equilibrium. Remove it, or add time: {end, step}.");
-  return false;
+  return *keys.initial == Initial::equilibrium;
 }
 
 /// All stand in the history's header, where they could not be told apart.
@@ -35,40 +66,50 @@ void check_distinct(const std::vector<PointDraft>& points, const std::vector<Bod
   for (const CableDraft& cable : cables) add(cable.cable.name, "cable", cable.value);
 }
 
+std::vector<CableType> types_of(const Section& top, const TopKeys& keys, const Scene& scene, Names& names) {
+  if (keys.cables || keys.nets) top.require("cable_types");
+  return keys.cable_types ? read_cable_types(*keys.cable_types, scene, names) : std::vector<CableType>{};
+}
+
 }   // namespace
 
+const KeyTable& scene_keys() { return top_table(); }
+
 Scene read_scene(const std::string& text, const std::string& file) {
-  const Section top(parse_yaml(text, file), {"title", "environment", "cable_types", "points", "bodies", "cables",
-                                             "nets", "initial", "time", "output"});
+  TopKeys keys;
+  const Section top = read_rows(parse_yaml(text, file), top_table(), keys);
   Scene scene;
+  SceneNames names;
+  std::vector<PointDraft> points;
+  std::vector<BodyDraft> bodies;
+  std::vector<CableDraft> cables;
   scene.file = file;
   scene.text = text;
-  if (const Value* title = top.find("title")) scene.title = read_text(*title, "a text");
-  read_environment(top, scene);
-  scene.is_static = top.find("time") == nullptr;
-  scene.starts_static = read_starts_static(top, scene.is_static);
-  scene.time = read_time(top);
-  SceneNames names;
-  scene.cable_types = read_cable_types(top, scene, names.types);
-  std::vector<PointDraft> point_drafts = read_points(top, scene.time);
-  std::vector<BodyDraft> body_drafts = read_bodies(top);
-  const std::vector<CableDraft> cable_drafts = read_cables(top, names.types);
-  scene.nets = read_nets(top, names.types, names.nets);
-  if (cable_drafts.empty() && scene.nets.empty() && body_drafts.empty())
+  scene.title = keys.title;
+  if (keys.environment) read_environment(*keys.environment, scene);
+  scene.is_static = !keys.time;
+  scene.starts_static = starts_static(top, keys);
+  if (keys.time) scene.time = read_time(*keys.time);
+  scene.cable_types = types_of(top, keys, scene, names.types);
+  if (keys.points) points = read_points(*keys.points, scene.time);
+  if (keys.bodies) bodies = read_bodies(*keys.bodies);
+  if (keys.cables) cables = read_cables(*keys.cables, names.types);
+  if (keys.nets) scene.nets = read_nets(*keys.nets, names.types, names.nets);
+  if (cables.empty() && scene.nets.empty() && bodies.empty())
     top.map().fail(
         "cables: the scene has neither cables nor nets nor bodies; expected at least one. Add cables, nets or bodies.");
-  check_distinct(point_drafts, body_drafts, cable_drafts);
-  check_size(cable_drafts, scene.nets, top.map());
-  check_circles(cable_drafts);
-  mark_repeated(cable_drafts, point_drafts, body_drafts);
-  scene.points = expand_points(point_drafts, names.points);
-  scene.bodies = expand_bodies(body_drafts, names.bodies);
-  scene.cables = expand_cables(cable_drafts, scene, names);
-  check_ends(cable_drafts, point_drafts, scene);
-  scene.notes = water_notes(top, point_drafts, body_drafts, scene);
-  add_body_notes(body_drafts, cable_drafts, scene);
-  add_static_notes(point_drafts, body_drafts, cable_drafts, scene);
-  scene.output = read_output(top, scene.time, names);
+  check_distinct(points, bodies, cables);
+  check_size(cables, scene.nets, top.map());
+  check_circles(cables);
+  mark_repeated(cables, points, bodies);
+  scene.points = expand_points(points, names.points);
+  scene.bodies = expand_bodies(bodies, names.bodies);
+  scene.cables = expand_cables(cables, scene, names);
+  check_ends(cables, points, scene);
+  scene.notes = water_notes(top, points, bodies, scene);
+  add_body_notes(bodies, cables, scene);
+  add_static_notes(points, bodies, cables, scene);
+  scene.output = read_output(keys.output, scene.time, names);
   return scene;
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "parts.hpp"
+#include "rows.hpp"
 
 namespace cablenet::scene {
 
@@ -61,6 +62,14 @@ Matrix3 read_inertia(const Value& value) {
   return inertia;
 }
 
+Kind<Matrix3> inertia() {
+  const NumberForm moment{"kg m2", any_number};
+  const std::vector<NumberForm> three(3, moment), six(6, moment);
+  return {either_form(inertia_expected,
+                      {row_form("[Ixx, Iyy, Izz]", three), row_form("[Ixx, Iyy, Izz, Ixy, Iyz, Izx]", six)}),
+          read_inertia, nullptr};
+}
+
 Quaternion read_quaternion(const Value& value) {
   const std::vector<double> q = read_numbers(value, 4, "[w, x, y, z], four numbers");
   Quaternion quaternion(q[0], q[1], q[2], q[3]);
@@ -74,119 +83,154 @@ Quaternion read_quaternion(const Value& value) {
   return quaternion.normalized();
 }
 
+struct OrientationKeys {
+  double roll = 0, pitch = 0, yaw = 0;
+  std::optional<Quaternion> quaternion;
+};
+const NumberForm part{"", any_number};
+const std::string orientation_expected = "{roll, pitch, yaw} [deg] or {quaternion: [w, x, y, z]}";
+const Table<OrientationKeys> orientation_table(
+    "The attitude of a body: its axes, along the world's at first, are turned by yaw, then pitch, then roll.",
+    {{"roll", angle(), standard, "The turn about the body's x axis.", &OrientationKeys::roll},
+     {"pitch", angle(), standard, "The turn about the body's y axis.", &OrientationKeys::pitch},
+     {"yaw", angle(), standard, "The turn about the world's z axis.", &OrientationKeys::yaw},
+     {"quaternion",
+      Kind<Quaternion>{row_form("[w, x, y, z], four numbers", {part, part, part, part}), read_quaternion, nullptr},
+      absent("roll, pitch and yaw say it"), "The attitude as a quaternion instead; it is scaled to length 1.",
+      &OrientationKeys::quaternion}},
+    Holds::any_keys, orientation_expected);
+
 Quaternion read_orientation(const Value& value) {
-  const std::string expected = "{roll, pitch, yaw} [deg] or {quaternion: [w, x, y, z]}";
-  if (!value.node.IsMap()) value.refuse(expected, "Write one of these.");
-  const Section section(value, {"roll", "pitch", "yaw", "quaternion"});
-  if (const Value* quaternion = section.find("quaternion")) {
-    if (value.node.size() != 1) value.refuse(expected, "Keep one of the two.");
-    return read_quaternion(*quaternion);
-  }
-  const auto turn = [&](const char* key, const Vector3& axis) {
-    const Value* angle = section.find(key);
-    return Eigen::AngleAxisd(angle != nullptr ? read_angle(*angle) : 0, axis);
-  };
-  return (turn("yaw", Vector3::UnitZ()) * turn("pitch", Vector3::UnitY()) * turn("roll", Vector3::UnitX()))
+  if (!value.node.IsMap()) value.refuse(orientation_expected, "Write one of these.");
+  OrientationKeys keys;
+  read_rows(value, orientation_table, keys);
+  if (keys.quaternion && value.node.size() != 1) value.refuse(orientation_expected, "Keep one of the two.");
+  if (keys.quaternion) return *keys.quaternion;
+  const auto turn = [](double angle, const Vector3& axis) { return Eigen::AngleAxisd(angle, axis); };
+  return (turn(keys.yaw, Vector3::UnitZ()) * turn(keys.pitch, Vector3::UnitY()) * turn(keys.roll, Vector3::UnitX()))
       .normalized();
 }
 
-std::vector<Attachment> read_attachments(const Value& value, std::vector<Value>& values) {
-  std::vector<Attachment> attachments;
+/// The values tell where an attachment stands in the file, for notes.
+struct BodyKeys : Body {
+  std::vector<Value> attachment_values;
+};
+
+void read_attachments(BodyKeys& body, const Value& value) {
   for (const Named& named : read_named(value, "a map from names to [x, y, z] [m]")) {
-    attachments.push_back({named.name, read_vector(named.value, "m")});
-    values.push_back(named.value);
+    body.attachments.push_back({named.name, read_vector(named.value, "m")});
+    body.attachment_values.push_back(named.value);
   }
-  return attachments;
 }
+
+struct LinkKeys {
+  double axial_stiffness = 0;
+};
+const Table<LinkKeys> link_table(
+    "A spring between a cable's end and its attachment.",
+    {{"axial_stiffness", number("N", above(0)), required,
+      "EA of the link; its stiffness is EA over the attachment's distance from the centre of gravity.",
+      &LinkKeys::axial_stiffness}});
+
+struct CouplingKeys {
+  LinkKeys rigid_link;
+};
+const std::string coupling_expected = "kinematic or {rigid_link: {axial_stiffness: EA [N]}}";
+const Table<CouplingKeys> coupling_table("How cables are fastened to a body.",
+                                         {{"rigid_link", section(link_table), required,
+                                           "A cable's end is a node of its own that a stiff spring holds.",
+                                           &CouplingKeys::rigid_link}});
 
 std::optional<double> read_coupling(const Value& value) {
-  const std::string expected = "kinematic or {rigid_link: {axial_stiffness: EA [N]}}";
   if (value.node.IsScalar() && value.node.Scalar() == "kinematic") return std::nullopt;
-  if (!value.node.IsMap()) value.refuse(expected, "Write one of these.");
-  const Section section(value, {"rigid_link"});
-  const Section link(section.require("rigid_link", "{axial_stiffness: EA [N]}"), {"axial_stiffness"});
-  return read_number(link.require("axial_stiffness", "a number > 0 [N]"), Sign::positive, "N");
+  if (!value.node.IsMap()) value.refuse(coupling_expected, "Write one of these.");
+  CouplingKeys keys;
+  read_rows(value, coupling_table, keys);
+  return keys.rigid_link.axial_stiffness;
 }
 
+const Table<Body> drag_table("The drag of a body along and about its axes, at the centre of gravity.",
+                             {{"linear", six_numbers("N s/m", "N m s"), standard, "The drag per velocity.",
+                               &Body::linear_drag},
+                              {"quadratic", six_numbers("N s2/m2", "N m s2"), standard,
+                               "The drag per velocity squared.", &Body::quadratic_drag}});
+
+void read_drag(Body& body, const Value& value) {
+  if (!value.node.IsMap()) value.refuse(drag_table.expected, "Write drag: {quadratic: [6 numbers]}.");
+  read_rows(value, drag_table, body);
+}
+
+const Table<BodyKeys> body_table(
+    "A rigid body.",
+    {{"mass", number("kg", above(0)), required, "The mass.", &BodyKeys::mass},
+     {"inertia", inertia(), absent("a point mass, which does not turn"),
+      "The moments and products of inertia about the centre of gravity in body axes; Ixy is the integral of x y dm.",
+      &BodyKeys::inertia},
+     {"position", vector("m"), required, "Where the centre of gravity is drawn.", &BodyKeys::position},
+     {"orientation", later(section_form(orientation_table)), absent("body axes along the world's"),
+      "The drawn attitude.", [](Body& body, const Value& value) { body.attitude = read_orientation(value); }},
+     {"velocity", vector("m/s"), standard, "The velocity at the start, in the world's axes.", &BodyKeys::velocity},
+     {"angular_velocity", vector("rad/s"), standard, "The angular velocity at the start, in body axes.",
+      &BodyKeys::angular_velocity},
+     {"force", vector("N"), standard, "A constant force at the centre of gravity, in the world's axes.",
+      &BodyKeys::force},
+     {"torque", vector("N m"), standard, "A constant torque, in body axes.", &BodyKeys::torque},
+     {"attachments", later(map_form("a map from names to [x, y, z] [m]", vector("m").form)), absent("there are none"),
+      "Where cables may be fastened, from the centre of gravity in body axes.", read_attachments},
+     {"rotation", choice<Rotation>(), standard, "How the attitude is described to the solver.", &BodyKeys::rotation},
+     {"coupling", later(either_form(coupling_expected, {word_form({"kinematic"}), section_form(coupling_table)})),
+      absent("kinematic: a cable's end is the attachment"), "How cables are fastened to the body.",
+      [](Body& body, const Value& value) { body.link_stiffness = read_coupling(value); }},
+     Row<BodyKeys>("volume", number("m3", at_least(0)), standard, "The water that the body displaces.",
+                   &BodyKeys::volume)
+         .in_fluid(),
+     Row<BodyKeys>("center_of_buoyancy", vector("m"), standard,
+                   "Where buoyancy acts, from the centre of gravity in body axes.", &BodyKeys::center_of_buoyancy)
+         .in_fluid(),
+     Row<BodyKeys>("drag", later(section_form(drag_table)), absent("there is none"), "The drag of the body.", read_drag)
+         .in_fluid(),
+     Row<BodyKeys>("added_mass", six_numbers("kg", "kg m2"), standard,
+                   "The added mass and inertia along and about the body's axes.", &BodyKeys::added_mass)
+         .in_fluid()});
+
 /// A turning motion or load, which only a body with inertia has.
-Vector3 read_turning(const Value& value, const char* unit, const Body& body) {
-  const Vector3 vector = read_vector(value, unit);
-  if (!body.inertia && !vector.isZero(0))
-    value.fail(
-        fmt::format("[{}, {}, {}] is not allowed; expected none, as a body without inertia is a point mass and does "
-                    "not turn. Give inertia or remove this.",
-                    vector[0], vector[1], vector[2]));
-  return vector;
+void check_turning(const Value* value, const Vector3& vector, const Body& body) {
+  if (value == nullptr || body.inertia || vector.isZero(0)) return;
+  value->fail(
+      fmt::format("[{}, {}, {}] is not allowed; expected none, as a body without inertia is a point mass and does "
+                  "not turn. Give inertia or remove this.",
+                  vector[0], vector[1], vector[2]));
 }
 
 /// Roll-pitch-yaw rates grow without bound towards a pitch of +-90 degrees.
-void check_pitch(const Value& value, const Body& body) {
+void check_pitch(const Value* value, const Body& body) {
   const double sine = -body.attitude.toRotationMatrix()(2, 0);
   const double pitch = std::asin(std::min(std::max(sine, -1.0), 1.0)) / degree;
-  if (body.rotation != Rotation::euler || std::abs(pitch) < 89 - 1e-9) return;
-  value.fail(
+  if (value == nullptr || body.rotation != Rotation::euler || std::abs(pitch) < 89 - 1e-9) return;
+  value->fail(
       fmt::format("a pitch of {:.6g} degrees is not allowed with rotation: euler, which is singular at +-90; expected "
                   "one in -89..89. Write rotation: quaternion.",
                   pitch));
 }
 
-/// Along the body's three axes, then about them.
-std::array<double, 6> read_six(const Value& value, const char* along, const char* about) {
-  const std::string expected =
-      fmt::format("six numbers >= 0: three along the body's axes [{}], three about them [{}]", along, about);
-  read_numbers(value, 6, expected);
-  std::array<double, 6> numbers{};
-  const std::vector<Value> items = read_list(value, expected);
-  for (std::size_t i = 0; i < 6; ++i) numbers[i] = read_number(items[i], Sign::not_negative, i < 3 ? along : about);
-  return numbers;
-}
-
-void read_water(const Section& section, Body& body) {
-  if (const Value* volume = section.find("volume")) body.volume = read_number(*volume, Sign::not_negative, "m3");
-  if (const Value* center = section.find("center_of_buoyancy")) body.center_of_buoyancy = read_vector(*center, "m");
-  if (const Value* mass = section.find("added_mass")) body.added_mass = read_six(*mass, "kg", "kg m2");
-  const Value* value = section.find("drag");
-  if (value == nullptr) return;
-  if (!value->node.IsMap()) value->refuse("a map of keys: linear, quadratic", "Write drag: {quadratic: [6 numbers]}.");
-  const Section drag(*value, {"linear", "quadratic"});
-  if (const Value* linear = drag.find("linear")) body.linear_drag = read_six(*linear, "N s/m", "N m s");
-  if (const Value* quadratic = drag.find("quadratic")) body.quadratic_drag = read_six(*quadratic, "N s2/m2", "N m s2");
-}
-
 BodyDraft read_body(const Named& named) {
-  const Section section(
-      named.value, {"mass", "inertia", "position", "orientation", "velocity", "angular_velocity", "force", "torque",
-                    "attachments", "rotation", "coupling", "volume", "center_of_buoyancy", "drag", "added_mass"});
-  Body body;
-  std::vector<Value> values;
+  BodyKeys body;
+  const Section section = read_rows(named.value, body_table, body);
   body.name = named.name;
   body.where = named.value.where();
-  body.mass = read_number(section.require("mass", "a number > 0 [kg]"), Sign::positive, "kg");
-  if (const Value* inertia = section.find("inertia")) body.inertia = read_inertia(*inertia);
-  body.position = read_vector(section.require("position", "[x, y, z], three numbers [m]"), "m");
-  if (const Value* velocity = section.find("velocity")) body.velocity = read_vector(*velocity, "m/s");
-  if (const Value* rate = section.find("angular_velocity")) body.angular_velocity = read_turning(*rate, "rad/s", body);
-  if (const Value* force = section.find("force")) body.force = read_vector(*force, "N");
-  if (const Value* torque = section.find("torque")) body.torque = read_turning(*torque, "N m", body);
-  if (const Value* value = section.find("attachments")) body.attachments = read_attachments(*value, values);
-  if (const Value* coupling = section.find("coupling")) body.link_stiffness = read_coupling(*coupling);
-  if (const Value* rotation = section.find("rotation"))
-    body.rotation = read_choice(*rotation, {"quaternion", "euler"}) == 0 ? Rotation::quaternion : Rotation::euler;
-  if (const Value* orientation = section.find("orientation")) {
-    body.attitude = read_orientation(*orientation);
-    check_pitch(*orientation, body);
-  }
-  read_water(section, body);
-  return {{std::move(body), named.value}, std::move(values)};
+  check_turning(section.find("angular_velocity"), body.angular_velocity, body);
+  check_turning(section.find("torque"), body.torque, body);
+  check_pitch(section.find("orientation"), body);
+  return {{body, named.value}, body.attachment_values};
 }
 
 }   // namespace
 
-std::vector<BodyDraft> read_bodies(const Section& top) {
+Form bodies_form() { return map_form("a map from names to bodies", section_form(body_table)); }
+
+std::vector<BodyDraft> read_bodies(const Value& value) {
   std::vector<BodyDraft> bodies;
-  const Value* value = top.find("bodies");
-  if (value == nullptr) return bodies;
-  for (const Named& named : read_named(*value, "a map from names to bodies")) bodies.push_back(read_body(named));
+  for (const Named& named : read_named(value, bodies_form().expected)) bodies.push_back(read_body(named));
   return bodies;
 }
 

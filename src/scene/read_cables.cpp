@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "parts.hpp"
+#include "rows.hpp"
 
 namespace cablenet::scene {
 
@@ -9,27 +12,43 @@ namespace {
 const char* const end_expected =
     "a point's name, BODY.ATTACHMENT, {cable: NAME, at: s [m]} or {net: NAME, node: [i, j]}";
 
+struct ReferenceKeys {
+  std::optional<std::string> cable, net;
+  std::optional<double> at;
+  std::optional<std::array<int, 2>> node;
+};
+const Table<ReferenceKeys> reference_table(
+    "A cable's end on another cable, which gets a node there, or at a node of a net.",
+    {{"cable", text("a cable's name"), absent("a net is given"), "The other cable.", &ReferenceKeys::cable},
+     {"at", number("m", at_least(0)), absent("a net is given"), "The unstretched length from that cable's start.",
+      &ReferenceKeys::at},
+     {"net", text("a net's name"), absent("a cable is given"), "The net.", &ReferenceKeys::net},
+     {"node", integer_pair("[i, j]", 0), absent("a cable is given"),
+      "The node, counted from the net's first corner along its first and second edge.", &ReferenceKeys::node}});
+
 Reference read_reference(const Value& value) {
   if (value.node.IsScalar()) return {Reference::Kind::named, value.node.Scalar(), 0, {}, value};
   if (!value.node.IsMap()) value.refuse(end_expected, "Write one of these.");
-  const Section section(value, {"cable", "at", "net", "node"});
-  const Value* cable = section.find("cable");
-  const Value* net = section.find("net");
-  const Value* mixed = section.find(cable != nullptr ? "node" : "at");
-  if ((cable == nullptr) == (net == nullptr) || mixed != nullptr)
+  ReferenceKeys keys;
+  const Section section = read_rows(value, reference_table, keys);
+  const bool is_mixed = keys.cable ? keys.node.has_value() : keys.at.has_value();
+  if (keys.cable.has_value() == keys.net.has_value() || is_mixed)
     value.refuse(end_expected, "Give either cable and at, or net and node.");
-  if (cable != nullptr) {
-    const double at = read_number(section.require("at", "a number >= 0 [m]"), Sign::not_negative, "m");
-    return {Reference::Kind::cable, read_text(*cable, "a cable's name"), at, {}, value};
-  }
-  const Value& node = section.require("node", "[i, j], two integers >= 0");
-  const std::vector<Value> items = read_list(node, "[i, j], two integers >= 0");
-  if (items.size() != 2) node.refuse("[i, j], two integers >= 0", "Write exactly 2.");
-  return {Reference::Kind::net,
-          read_text(*net, "a net's name"),
-          0,
-          {read_integer(items[0], 0), read_integer(items[1], 0)},
-          value};
+  section.require(keys.cable ? "at" : "node");
+  if (keys.cable) return {Reference::Kind::cable, *keys.cable, *keys.at, {}, value};
+  return {Reference::Kind::net, *keys.net, 0, *keys.node, value};
+}
+
+Kind<Reference> reference() {
+  return {either_form(end_expected, {text("a point's name or BODY.ATTACHMENT").form, section_form(reference_table)}),
+          read_reference, nullptr};
+}
+
+const std::string shape_expected = "straight, catenary or a polyline [[x, y, z], ...]";
+
+Form shape_form() {
+  const Form polyline = list_form("a list of at least 2 rows [x, y, z] [m]", vector("m").form, 2);
+  return either_form(shape_expected, {choice<Shape>().form, polyline});
 }
 
 void check_polyline(const Value& value, const Cable& cable) {
@@ -54,11 +73,10 @@ void read_shape(const Value& value, Cable& cable) {
     check_polyline(value, cable);
     return;
   }
-  const std::string expected = "straight, catenary or a polyline [[x, y, z], ...]";
-  if (!value.node.IsScalar()) value.refuse(expected, "Write one of these.");
-  if (value.node.Scalar() != "straight" && value.node.Scalar() != "catenary")
-    value.refuse(expected, "Write one of these.");
-  cable.shape = value.node.Scalar() == "straight" ? Shape::straight : Shape::catenary;
+  const auto is_same = [&](const Choice<Shape>& word) { return value.node.Scalar() == word.name; };
+  const auto found = std::find_if(choices<Shape>.begin(), choices<Shape>.end(), is_same);
+  if (!value.node.IsScalar() || found == choices<Shape>.end()) value.refuse(shape_expected, "Write one of these.");
+  cable.shape = found->value;
 }
 
 void read_node_velocity(const Value& value, Cable& cable) {
@@ -68,40 +86,63 @@ void read_node_velocity(const Value& value, Cable& cable) {
   cable.node_velocity = read_vectors(value, rows, "m/s");
 }
 
+const Table<Repeat> repeat_table(
+    "Copies of a cable that ends on another one; the point or body at its other end is copied with it.",
+    {{"count", integer(1), required, "How many there are in all; they are called NAME[0], NAME[1], ...",
+      &Repeat::count},
+     {"every", number("m"), required, "The unstretched length of the other cable from one to the next.",
+      &Repeat::every},
+     {"offset", vector("m"), required, "From one copy to the next, as drawn.", &Repeat::offset}});
+
 Repeat read_repeat(const Value& value) {
-  const Section section(value, {"count", "every", "offset"});
-  const int count = read_integer(section.require("count", "an integer >= 1"), 1);
-  const double every = read_number(section.require("every", "a number [m]"), Sign::any, "m");
-  const Vector3 offset = read_vector(section.require("offset", "[x, y, z], three numbers [m]"), "m");
-  return {count, every, offset, value};
+  Repeat repeat{0, 0, Vector3::Zero(), value};
+  read_rows(value, repeat_table, repeat);
+  return repeat;
 }
 
+/// Shape and node velocities depend on the number of elements.
+struct CableKeys : Cable {
+  std::optional<Value> given_type, given_shape, given_velocity;
+  std::optional<Reference> from_name, to_name;
+  std::optional<Repeat> repeat;
+};
+const Table<CableKeys> cable_table(
+    "A cable from one place to another.",
+    {{"type", later(text("the name of a cable type").form), required, "What the cable is made of.",
+      &CableKeys::given_type},
+     {"from", reference(), required, "Where the cable starts.", &CableKeys::from_name},
+     {"to", reference(), required, "Where the cable ends.", &CableKeys::to_name},
+     {"length", number("m", above(0)), absent("the distance between the drawn ends"), "The unstretched length.",
+      &CableKeys::length},
+     {"elements", integer(1), required, "How many elements the cable is divided into.", &CableKeys::elements},
+     {"shape", later(shape_form()), absent("straight"),
+      "How the cable is drawn; nodes lie on a polyline evenly by length, or at its points where it has elements + 1.",
+      &CableKeys::given_shape},
+     {"node_velocity",
+      later(list_form("a list of rows [u, v, w] [m/s], one per node (elements + 1)", vector("m/s").form, 2)),
+      absent("linear between the velocities of the ends"), "The velocity of each node at the start.",
+      &CableKeys::given_velocity},
+     {"repeat", Kind<Repeat>{section_form(repeat_table), read_repeat, nullptr}, absent("one cable"),
+      "Copies of the cable.", &CableKeys::repeat}});
+
 CableDraft read_cable(const Named& named, const Names& types) {
-  const Section section(named.value, {"type", "from", "to", "length", "elements", "shape", "node_velocity", "repeat"});
-  Cable cable;
+  CableKeys cable;
+  read_rows(named.value, cable_table, cable);
   cable.name = named.name;
   cable.where = named.value.where();
-  const Value& type = section.require("type", "the name of a cable type");
-  cable.type = types.one(type, read_text(type, "the name of a cable type"));
-  const Reference from = read_reference(section.require("from", end_expected));
-  const Reference to = read_reference(section.require("to", end_expected));
-  if (const Value* length = section.find("length")) cable.length = read_number(*length, Sign::positive, "m");
-  cable.elements = read_integer(section.require("elements", "an integer >= 1"), 1);
-  if (const Value* shape = section.find("shape")) read_shape(*shape, cable);
-  if (const Value* rows = section.find("node_velocity")) read_node_velocity(*rows, cable);
-  std::optional<Repeat> repeat;
-  if (const Value* value = section.find("repeat")) repeat.emplace(read_repeat(*value));
-  return {std::move(cable), from, to, std::move(repeat), named.value};
+  cable.type = types.one(*cable.given_type, read_text(*cable.given_type, "the name of a cable type"));
+  if (cable.given_shape) read_shape(*cable.given_shape, cable);
+  if (cable.given_velocity) read_node_velocity(*cable.given_velocity, cable);
+  return {cable, *cable.from_name, *cable.to_name, cable.repeat, named.value};
 }
 
 }   // namespace
 
-std::vector<CableDraft> read_cables(const Section& top, const Names& types) {
+Form cables_form() { return map_form("a map from names to cables", section_form(cable_table)); }
+
+std::vector<CableDraft> read_cables(const Value& value, const Names& types) {
   std::vector<CableDraft> cables;
-  const Value* value = top.find("cables");
-  if (value == nullptr) return cables;
-  for (const Named& named : read_named(*value, "a map from names to cables"))
-    cables.push_back(read_cable(named, types));
+  for (const Named& named : read_named(value, cables_form().expected)) cables.push_back(read_cable(named, types));
   return cables;
 }
 

@@ -3,16 +3,20 @@
 #include <algorithm>
 
 #include "parts.hpp"
+#include "rows.hpp"
 
 namespace cablenet::scene {
 
 namespace {
 
-std::array<Vector3, 4> read_corners(const Value& value) {
-  const std::string expected = "four corners [[x, y, z], ...] [m] in order round the panel";
-  const std::vector<Value> rows = read_list(value, expected);
-  if (rows.size() != 4) value.refuse(expected, "Write exactly 4.");
-  std::array<Vector3, 4> corners;
+using Corners = std::array<Vector3, 4>;
+const std::string corners_expected = "four corners [[x, y, z], ...] [m] in order round the panel";
+const std::string edges_expected = "a list of: top, right, bottom, left";
+
+Corners read_corners(const Value& value) {
+  const std::vector<Value> rows = read_list(value, corners_expected);
+  if (rows.size() != 4) value.refuse(corners_expected, "Write exactly 4.");
+  Corners corners;
   for (std::size_t i = 0; i < 4; ++i) {
     corners[i] = read_vector(rows[i], "m");
     for (std::size_t j = 0; j < i; ++j)
@@ -22,40 +26,51 @@ std::array<Vector3, 4> read_corners(const Value& value) {
   return corners;
 }
 
-std::vector<Edge> read_fixed(const Value& value) {
-  const Edge edges[] = {Edge::top, Edge::right, Edge::bottom, Edge::left};
-  std::vector<Edge> fixed;
-  for (const Value& item : read_list(value, "a list of: top, right, bottom, left")) {
-    const Edge edge = edges[read_choice(item, {"top", "right", "bottom", "left"})];
-    if (std::find(fixed.begin(), fixed.end(), edge) == fixed.end()) fixed.push_back(edge);
-  }
-  return fixed;
+Kind<Corners> corners() {
+  const Form corner = vector("m").form;
+  return {{corners_expected, RowForm{{corner, corner, corner, corner}}}, read_corners, nullptr};
 }
 
+std::vector<Edge> read_edges(const Value& value) {
+  std::vector<Edge> edges;
+  for (const Value& item : read_list(value, edges_expected)) {
+    const Edge edge = choice<Edge>().read(item);
+    if (std::find(edges.begin(), edges.end(), edge) == edges.end()) edges.push_back(edge);
+  }
+  return edges;
+}
+
+struct NetKeys : Net {
+  std::optional<Value> given_type;
+};
+const Table<NetKeys> net_table(
+    "A panel of square meshes, each side of a mesh one element.",
+    {{"type", later(text("the name of a cable type").form), required, "What the twines are made of.",
+      &NetKeys::given_type},
+     {"corners", corners(), required, "The corners of the panel in order round it.", &NetKeys::corners},
+     {"meshes", integer_pair("[nx, ny]", 1), required,
+      "How many meshes there are along the first edge (corners 1 to 2) and the second (2 to 3).", &NetKeys::meshes},
+     {"slack", number("", above(0)), standard, "The unstretched length over the drawn length.", &NetKeys::slack},
+     {"fixed", Kind<std::vector<Edge>>{list_form(edges_expected, choice<Edge>().form), read_edges, nullptr},
+      absent("none"), "The edges that are held; top joins corners 1 and 2, right 2 and 3, and so on.",
+      &NetKeys::fixed}});
+
 Net read_net(const Named& named, const Names& types) {
-  const Section section(named.value, {"type", "corners", "meshes", "slack", "fixed"});
-  Net net;
+  NetKeys net;
+  read_rows(named.value, net_table, net);
   net.name = named.name;
   net.where = named.value.where();
-  const Value& type = section.require("type", "the name of a cable type");
-  net.type = types.one(type, read_text(type, "the name of a cable type"));
-  net.corners = read_corners(section.require("corners", "four corners [[x, y, z], ...] [m]"));
-  const Value& meshes = section.require("meshes", "[nx, ny], two integers >= 1");
-  const std::vector<Value> counts = read_list(meshes, "[nx, ny], two integers >= 1");
-  if (counts.size() != 2) meshes.refuse("[nx, ny], two integers >= 1", "Write exactly 2.");
-  net.meshes = {read_integer(counts[0], 1), read_integer(counts[1], 1)};
-  if (const Value* slack = section.find("slack")) net.slack = read_number(*slack, Sign::positive, "");
-  if (const Value* fixed = section.find("fixed")) net.fixed = read_fixed(*fixed);
+  net.type = types.one(*net.given_type, read_text(*net.given_type, "the name of a cable type"));
   return net;
 }
 
 }   // namespace
 
-std::vector<Net> read_nets(const Section& top, const Names& types, Names& names) {
+Form nets_form() { return map_form("a map from names to nets", section_form(net_table)); }
+
+std::vector<Net> read_nets(const Value& value, const Names& types, Names& names) {
   std::vector<Net> nets;
-  const Value* value = top.find("nets");
-  if (value == nullptr) return nets;
-  for (const Named& named : read_named(*value, "a map from names to nets")) {
+  for (const Named& named : read_named(value, nets_form().expected)) {
     names.add(named.name, static_cast<int>(nets.size()), 0);
     nets.push_back(read_net(named, types));
   }

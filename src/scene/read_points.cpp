@@ -1,68 +1,84 @@
 #include <fmt/format.h>
 
-#include <tuple>
-
 #include "parts.hpp"
+#include "rows.hpp"
 
 namespace cablenet::scene {
 
 namespace {
 
-bool has_waypoints(const Value* motion) {
-  return motion != nullptr && motion->node.IsMap() && motion->node["waypoints"].IsDefined();
+/// What a point's motion is depends on its position and on the scene's time.
+struct PointKeys : Point {
+  std::optional<Vector3> given_position;
+  std::optional<Value> given_motion;
+};
+
+const Table<PointKeys>& point_table() {
+  static const Table<PointKeys> table(
+      "A point where cables end.",
+      {{"position", vector("m"), absent("where its waypoints begin; a point without waypoints needs one"),
+        "Where the point is drawn.", &PointKeys::given_position},
+       {"velocity", vector("m/s"), standard, "The velocity of a free point at the start.", &PointKeys::velocity},
+       {"mass", number("kg", at_least(0)), standard, "A mass at the point, beside that of its cables.",
+        &PointKeys::mass},
+       {"force", vector("N"), standard, "A constant force on the point, in the world's axes.", &PointKeys::force},
+       {"motion", later(motion_form()), absent("the point is free"), "How the point is held or moved.",
+        &PointKeys::given_motion},
+       Row<PointKeys>("volume", number("m3", at_least(0)), standard, "The water that a free point displaces.",
+                      &PointKeys::volume)
+           .in_fluid(),
+       Row<PointKeys>("drag_area", number("m2", at_least(0)), standard,
+                      "The drag coefficient times the area of a free point, Cd A.", &PointKeys::drag_area)
+           .in_fluid(),
+       Row<PointKeys>("added_mass", number("kg", at_least(0)), standard, "The added mass of a free point.",
+                      &PointKeys::added_mass)
+           .in_fluid()});
+  return table;
 }
 
-void read_velocity(const Value& value, const Value* motion, Point& point) {
-  point.velocity = read_vector(value, "m/s");
-  if (motion == nullptr) return;
-  const bool is_fixed = motion->node.IsScalar();
-  if (is_fixed && point.velocity.isZero(0)) return;
-  value.fail(is_fixed ? "the point is fixed; expected no velocity. Remove velocity, or motion."
-                      : "the point's motion says its velocity; expected none here. Remove velocity, or motion.");
+bool has_waypoints(const std::optional<Value>& motion) {
+  return motion && motion->node.IsMap() && motion->node["waypoints"].IsDefined();
 }
 
-void read_water(const Section& section, Point& point) {
-  const std::tuple<const char*, const char*, double&> properties[] = {
-      {"volume", "m3", point.volume}, {"drag_area", "m2", point.drag_area}, {"added_mass", "kg", point.added_mass}};
-  for (const auto& [key, unit, property] : properties) {
-    const Value* value = section.find(key);
+/// A point that is held or moved takes neither a velocity nor forces of the water.
+void check_moved(const Section& section, const PointKeys& point) {
+  const Value* velocity = section.find("velocity");
+  const bool is_fixed = point.given_motion->node.IsScalar();
+  if (velocity != nullptr && !(is_fixed && point.velocity.isZero(0)))
+    velocity->fail(is_fixed ? "the point is fixed; expected no velocity. Remove velocity, or motion."
+                            : "the point's motion says its velocity; expected none here. Remove velocity, or motion.");
+  for (const Key& key : point_table().keys) {
+    const Value* value = key.needs_fluid ? section.find(key.name) : nullptr;
     if (value == nullptr) continue;
-    property = read_number(*value, Sign::not_negative, unit);
-    if (point.motion)
-      value->fail(
-          fmt::format("the point goes where its motion says, so this would do nothing; expected {} of free "
-                      "points only. Remove {}, or motion.",
-                      key, key));
+    value->fail(
+        fmt::format("the point goes where its motion says, so this would do nothing; expected {} of free "
+                    "points only. Remove {}, or motion.",
+                    key.name, key.name));
   }
 }
 
 PointDraft read_point(const Named& named, const Time& time) {
-  const Section section(named.value,
-                        {"position", "velocity", "mass", "force", "motion", "volume", "drag_area", "added_mass"});
-  Point point;
+  PointKeys point;
+  const Section section = read_rows(named.value, point_table(), point);
   point.name = named.name;
   point.where = named.value.where();
-  const Value* motion = section.find("motion");
-  if (const Value* position = section.find("position"))
-    point.position = read_vector(*position, "m");
-  else if (!has_waypoints(motion))
-    section.require("position", "[x, y, z], three numbers [m]");
-  if (motion != nullptr) point.motion = read_motion(*motion, point.position, time);
-  if (has_waypoints(motion)) point.position = point.motion->at(time.start).x;
-  if (const Value* velocity = section.find("velocity")) read_velocity(*velocity, motion, point);
-  if (const Value* mass = section.find("mass")) point.mass = read_number(*mass, Sign::not_negative, "kg");
-  if (const Value* force = section.find("force")) point.force = read_vector(*force, "N");
-  read_water(section, point);
+  if (!has_waypoints(point.given_motion)) section.require("position");
+  point.position = point.given_position.value_or(Vector3::Zero());
+  if (point.given_motion) {
+    point.motion = read_motion(*point.given_motion, point.position, time);
+    check_moved(section, point);
+  }
+  if (has_waypoints(point.given_motion)) point.position = point.motion->at(time.start).x;
   return {point, named.value};
 }
 
 }   // namespace
 
-std::vector<PointDraft> read_points(const Section& top, const Time& time) {
+Form points_form() { return map_form("a map from names to points", section_form(point_table())); }
+
+std::vector<PointDraft> read_points(const Value& value, const Time& time) {
   std::vector<PointDraft> points;
-  const Value* value = top.find("points");
-  if (value == nullptr) return points;
-  for (const Named& named : read_named(*value, "a map from names to points")) points.push_back(read_point(named, time));
+  for (const Named& named : read_named(value, points_form().expected)) points.push_back(read_point(named, time));
   return points;
 }
 

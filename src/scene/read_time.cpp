@@ -4,6 +4,7 @@
 #include <set>
 
 #include "parts.hpp"
+#include "rows.hpp"
 #include "spelling.hpp"
 
 namespace cablenet::scene {
@@ -13,37 +14,83 @@ namespace {
 constexpr double most_steps = 2147483647;
 constexpr double default_dissipation = 0.05;
 
-double read_radius(const Value& value) {
-  const double radius = read_number(value, Sign::not_negative, "");
-  if (radius > 1) value.refuse("a number in 0..1", "0 damps most, 1 nothing.");
-  return radius;
-}
-
-void read_scheme(const Section& section, Time& time) {
-  const Value* scheme = section.find("scheme");
-  const Value* radius = section.find("spectral_radius");
-  if (scheme == nullptr) {
-    time.scheme = radius != nullptr ? Scheme::generalized_alpha : Scheme::energy_momentum;
-  } else {
-    const Scheme schemes[] = {Scheme::energy_momentum, Scheme::generalized_alpha, Scheme::plain};
-    time.scheme = schemes[read_choice(*scheme, {"energy_momentum", "generalized_alpha", "plain"})];
-  }
-  if (time.scheme == Scheme::energy_momentum) {
-    if (radius != nullptr)
-      radius->fail("energy_momentum has none. Remove spectral_radius, or choose scheme: generalized_alpha.");
-    time.axial_dissipation = scheme != nullptr ? 0 : default_dissipation;
-    time.spectral_radius = 1;
-  } else {
-    time.spectral_radius = radius != nullptr ? read_radius(*radius) : 0.8;
-  }
-}
+struct AdaptiveKeys {
+  double tolerance = 0;
+};
+const Table<AdaptiveKeys> adaptive_table("A step that follows the motion.",
+                                         {{"tolerance", number("m", above(0)), required,
+                                           "The local error of positions that a step may make.",
+                                           &AdaptiveKeys::tolerance}},
+                                         Holds::any_keys, "{tolerance: a number > 0 [m]}");
 
 double read_tolerance(const Value& adaptive) {
   if (!adaptive.node.IsMap())
-    adaptive.refuse("{tolerance: a number > 0 [m]}", "Write adaptive: {tolerance: 1.0e-5}, the local error of a step.");
-  const Section section(adaptive, {"tolerance"});
-  return read_number(section.require("tolerance", "a number > 0 [m], the local error of a step"), Sign::positive, "m");
+    adaptive.refuse(adaptive_table.expected, "Write adaptive: {tolerance: 1.0e-5}, the local error of a step.");
+  AdaptiveKeys keys;
+  read_rows(adaptive, adaptive_table, keys);
+  return keys.tolerance;
 }
+
+/// A scheme and its radius mean more where they are given.
+struct TimeKeys : Time {
+  std::optional<Scheme> given_scheme;
+  std::optional<double> given_radius;
+};
+const Table<TimeKeys> time_table(
+    "How the scene goes through time.",
+    {{"start", number("s"), standard, "The time at the start.", &TimeKeys::start},
+     {"end", number("s"), required, "The time at the end, which is later than start.", &TimeKeys::end},
+     {"step", number("s", above(0)), required, "The time step; the first one where it is adaptive.", &TimeKeys::step},
+     {"adaptive", later(section_form(adaptive_table)), absent("all steps are equal"),
+      "Lets the step follow the motion.",
+      [](Time& time, const Value& value) { time.tolerance = read_tolerance(value); }},
+     {"scheme", choice<Scheme>(), absent("energy_momentum, or generalized_alpha where spectral_radius is given"),
+      "The time stepping scheme.", &TimeKeys::given_scheme},
+     {"spectral_radius", number("", between(0, 1)), absent("0.8 where the scheme has one"),
+      "How much of a motion too fast for the step is left after it: 0 damps most, 1 nothing.",
+      &TimeKeys::given_radius}});
+
+void settle_scheme(const Section& section, TimeKeys& time) {
+  const bool has_radius = time.given_radius.has_value();
+  time.scheme = time.given_scheme.value_or(has_radius ? Scheme::generalized_alpha : Scheme::energy_momentum);
+  if (time.scheme == Scheme::energy_momentum) {
+    if (has_radius)
+      section.find("spectral_radius")
+          ->fail("energy_momentum has none. Remove spectral_radius, or choose scheme: generalized_alpha.");
+    time.axial_dissipation = time.given_scheme ? 0 : default_dissipation;
+    time.spectral_radius = 1;
+  } else {
+    time.spectral_radius = time.given_radius.value_or(0.8);
+  }
+}
+
+void check_steps(const Section& section, const Time& time) {
+  if (!(time.end > time.start))
+    section.find("end")->refuse(fmt::format("a number > start, which is {} [s]", time.start), "Correct end or start.");
+  const double duration = time.end - time.start;
+  const Value& step = *section.find("step");
+  if (time.step > duration * (1 + 1e-12))
+    step.refuse(fmt::format("a number <= end - start, which is {} [s]", duration), "Make the step smaller.");
+  // An adaptive step may start as small as it likes.
+  if (!time.tolerance && !(duration / time.step < most_steps))
+    step.refuse(fmt::format("at most {:.0f} steps from start to end", most_steps), "Make the step larger.");
+}
+
+const std::string history_expected = "a list of names of points, bodies and cables";
+const std::string history_item = "a name of a point, a body or a cable; one with brackets in quotes";
+
+struct OutputKeys : Output {
+  std::optional<double> given_interval;
+  std::optional<Value> given_history;
+};
+const Table<OutputKeys> output_table(
+    "What is written while the scene is solved.",
+    {{"interval", number("s", at_least(0)), absent("a hundredth of the time from start to end"),
+      "The time between saved frames and rows of the history; 0 saves every step.", &OutputKeys::given_interval},
+     {"history", later(list_form(history_expected, text(history_item).form)), absent("none"),
+      "The points, bodies and cables whose motion and tension are written to history.csv.", &OutputKeys::given_history},
+     {"energy", boolean(), standard, "Whether the history holds the energy of the whole and its parts.",
+      &OutputKeys::energy}});
 
 [[noreturn]] void fail_history(const Value& item, const std::string& name, const SceneNames& names) {
   if (names.nets.has(name)) item.fail(fmt::format("{} is a net; expected points, bodies and cables. Remove it.", name));
@@ -61,8 +108,8 @@ void read_history(const Value& value, const SceneNames& names, Output& output) {
   const std::pair<HistoryKind, const Names*> kinds[] = {
       {HistoryKind::point, &names.points}, {HistoryKind::body, &names.bodies}, {HistoryKind::cable, &names.cables}};
   std::set<std::pair<HistoryKind, int>> seen;
-  for (const Value& item : read_list(value, "a list of names of points, bodies and cables")) {
-    const std::string name = read_text(item, "a name of a point, a body or a cable; one with brackets in quotes");
+  for (const Value& item : read_list(value, history_expected)) {
+    const std::string name = read_text(item, history_item);
     const auto has_name = [&](const auto& entry) { return entry.second->find(name).has_value(); };
     const auto found = std::find_if(std::begin(kinds), std::end(kinds), has_name);
     if (found == std::end(kinds)) fail_history(item, name, names);
@@ -77,39 +124,22 @@ void read_history(const Value& value, const SceneNames& names, Output& output) {
 
 }   // namespace
 
-Time read_time(const Section& top) {
-  Time time;
-  const Value* value = top.find("time");
-  if (value == nullptr) return time;
-  const Section section(*value, {"start", "end", "step", "adaptive", "scheme", "spectral_radius"});
-  if (const Value* start = section.find("start")) time.start = read_number(*start, Sign::any, "s");
-  const Value& end = section.require("end", "a number > start [s]");
-  time.end = read_number(end, Sign::any, "s");
-  if (!(time.end > time.start))
-    end.refuse(fmt::format("a number > start, which is {} [s]", time.start), "Correct end or start.");
-  const Value& step = section.require("step", "a number > 0 [s]");
-  time.step = read_number(step, Sign::positive, "s");
-  const double duration = time.end - time.start;
-  if (time.step > duration * (1 + 1e-12))
-    step.refuse(fmt::format("a number <= end - start, which is {} [s]", duration), "Make the step smaller.");
-  if (const Value* adaptive = section.find("adaptive")) time.tolerance = read_tolerance(*adaptive);
-  // An adaptive step may start as small as it likes.
-  if (!time.tolerance && !(duration / time.step < most_steps))
-    step.refuse(fmt::format("at most {:.0f} steps from start to end", most_steps), "Make the step larger.");
-  read_scheme(section, time);
+Form time_form() { return section_form(time_table); }
+Form output_form() { return section_form(output_table); }
+
+Time read_time(const Value& value) {
+  TimeKeys time;
+  const Section section = read_rows(value, time_table, time);
+  check_steps(section, time);
+  settle_scheme(section, time);
   return time;
 }
 
-Output read_output(const Section& top, const Time& time, const SceneNames& names) {
-  Output output;
-  output.interval = (time.end - time.start) / 100;
-  const Value* value = top.find("output");
-  if (value == nullptr) return output;
-  const Section section(*value, {"interval", "history", "energy"});
-  if (const Value* interval = section.find("interval"))
-    output.interval = read_number(*interval, Sign::not_negative, "s");
-  if (const Value* energy = section.find("energy")) output.energy = read_boolean(*energy);
-  if (const Value* history = section.find("history")) read_history(*history, names, output);
+Output read_output(const std::optional<Value>& value, const Time& time, const SceneNames& names) {
+  OutputKeys output;
+  if (value) read_rows(*value, output_table, output);
+  output.interval = output.given_interval.value_or((time.end - time.start) / 100);
+  if (output.given_history) read_history(*output.given_history, names, output);
   return output;
 }
 

@@ -11,32 +11,20 @@ namespace cablenet::scene {
 
 namespace {
 
-/// A key that only water gives a meaning, and whether its value would do anything there.
-struct WaterKey {
-  const char* name;
-  bool acts;
-};
-
-bool acts(const std::array<double, 6>& numbers) {
-  return std::any_of(numbers.begin(), numbers.end(), [](double number) { return number != 0; });
-}
 bool turns(const std::array<double, 6>& numbers) {
   return std::any_of(numbers.begin() + 3, numbers.end(), [](double number) { return number != 0; });
 }
 
-std::array<WaterKey, 3> water_keys(const CableType& type) {
-  return {{{"normal_drag", type.normal_drag != 0},
-           {"tangential_drag", type.tangential_drag != 0},
-           {"added_mass", type.added_mass != 0}}};
+/// Whether a value holds a number other than zero.
+bool acts(const YAML::Node& node) {
+  if (node.IsScalar()) return node.as<double>(0) != 0;
+  return std::any_of(node.begin(), node.end(),
+                     [&](const auto& part) { return acts(node.IsMap() ? part.second : part); });
 }
-std::array<WaterKey, 3> water_keys(const Point& point) {
-  return {{{"volume", point.volume != 0}, {"drag_area", point.drag_area != 0}, {"added_mass", point.added_mass != 0}}};
-}
-std::array<WaterKey, 4> water_keys(const Body& body) {
-  return {{{"volume", body.volume != 0},
-           {"center_of_buoyancy", !body.center_of_buoyancy.isZero(0)},
-           {"drag", acts(body.linear_drag) || acts(body.quadratic_drag)},
-           {"added_mass", acts(body.added_mass)}}};
+
+/// The keys of the sections in a map from names.
+const std::vector<Key>& keys_in(const Form& map) {
+  return std::get<SectionForm>(std::get<MapForm>(map.shape).item[0].shape).table->keys;
 }
 
 /// The value of a key that the map has.
@@ -61,18 +49,18 @@ public:
   void add_types() {
     if (scene_.fluid || scene_.cable_types.empty()) return;
     const std::vector<Named> types = read_named(*top_.find("cable_types"), "a map of cable types");
-    for (std::size_t i = 0; i < types.size(); ++i) add_vacuum(types[i].value, water_keys(scene_.cable_types[i]));
+    for (const Named& type : types) add_vacuum(type.value, keys_in(cable_types_form()));
   }
 
   void add_points(const std::vector<PointDraft>& points) {
     if (scene_.fluid) return;
-    for (const PointDraft& draft : points) add_vacuum(draft.value, water_keys(draft.thing));
+    for (const PointDraft& draft : points) add_vacuum(draft.value, keys_in(points_form()));
   }
 
   void add_bodies(const std::vector<BodyDraft>& bodies) {
     for (const BodyDraft& draft : bodies) {
       if (!scene_.fluid)
-        add_vacuum(draft.value, water_keys(draft.thing));
+        add_vacuum(draft.value, keys_in(bodies_form()));
       else if (!draft.thing.inertia)
         add_point_mass(draft.value, draft.thing);
       else if (draft.thing.volume == 0 && !draft.thing.center_of_buoyancy.isZero(0))
@@ -85,10 +73,12 @@ public:
 private:
   void add(const Value& value, const std::string& text) { notes_.push_back(value.said(text)); }
 
-  template <std::size_t n>
-  void add_vacuum(const Value& map, const std::array<WaterKey, n>& keys) {
-    for (const WaterKey& key : keys)
-      if (key.acts) add(value_of(map, key.name), "does nothing without environment.fluid");
+  void add_vacuum(const Value& map, const std::vector<Key>& keys) {
+    for (const Named& given : read_named(map, "a map of keys")) {
+      const auto is_same = [&](const Key& key) { return key.needs_fluid && key.name == given.name; };
+      if (std::any_of(keys.begin(), keys.end(), is_same) && acts(given.value.node))
+        add(given.value, "does nothing without environment.fluid");
+    }
   }
 
   void add_point_mass(const Value& map, const Body& body) {

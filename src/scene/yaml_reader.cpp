@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <unordered_set>
 
@@ -72,9 +72,10 @@ std::string number_advice(const std::string& text) {
                                      : "Write a number without unit, like 2.5 or 1.0e-3.";
 }
 
-std::string number_expected(Sign sign, const std::string& unit) {
-  const char* range = sign == Sign::positive ? " > 0" : (sign == Sign::not_negative ? " >= 0" : "");
-  return fmt::format("a number{}{}", range, unit.empty() ? "" : fmt::format(" [{}]", unit));
+/// The sentence as the second half of another.
+std::string in_a_sentence(std::string sentence) {
+  sentence[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(sentence[0])));
+  return sentence;
 }
 
 void check_name(const Named& named) {
@@ -138,43 +139,46 @@ void Value::refuse(const std::string& expected, const std::string& advice) const
   fail(fmt::format("{} is not allowed; expected {}.{}{}", shown(), expected, advice.empty() ? "" : " ", advice));
 }
 
-Section::Section(const Value& map, const std::vector<const char*>& allowed)
-    : map_(map), entries_(entries(map, "a map of keys")) {
-  for (const Named& named : entries_) {
-    const auto is_same = [&](const char* key) { return named.name == key; };
-    if (std::any_of(allowed.begin(), allowed.end(), is_same)) continue;
-    Value at_key = named.value;
-    const std::vector<std::string> keys(allowed.begin(), allowed.end());
-    at_key.fail(fmt::format("unknown key; expected one of: {}.{} Correct or remove it.", fmt::join(keys, ", "),
-                            did_you_mean(named.name, keys)));
-  }
+Section::Section(const Value& map, const KeyTable& table)
+    : map_(map), table_(table), entries_(entries(map, table.expected)) {
+  std::vector<std::string> names;
+  for (const Key& key : table.keys) names.push_back(key.name);
+  for (const Named& named : entries_)
+    if (std::find(names.begin(), names.end(), named.name) == names.end())
+      named.value.fail(fmt::format("unknown key; expected one of: {}.{} Correct or remove it.", fmt::join(names, ", "),
+                                   did_you_mean(named.name, names)));
+  if (table.takes_one && entries_.size() != 1) map.refuse(table.expected + ", exactly one of them", "Keep one.");
 }
 
-const Value* Section::find(const char* key) const {
+const Value* Section::find(const std::string& key) const {
   for (const Named& named : entries_)
     if (named.name == key) return &named.value;
   return nullptr;
 }
 
-const Value& Section::require(const char* key, const std::string& expected) const {
+const Value& Section::require(const std::string& key, const std::string& why) const {
   if (const Value* value = find(key)) return *value;
+  const auto row =
+      std::find_if(table_.keys.begin(), table_.keys.end(), [&](const Key& candidate) { return candidate.name == key; });
   Value missing = map_;
   missing.path += fmt::format("{}{}", missing.path.empty() ? "" : ".", key);
-  missing.fail(fmt::format("is missing; expected {}. Add it.", expected));
+  missing.fail(
+      fmt::format("is missing; expected {}{}. Add it: {}", row->form.expected, why, in_a_sentence(row->sentence)));
 }
 
-double read_number(const Value& value, Sign sign, const std::string& unit) {
-  const auto refuse = [&](const std::string& advice) { value.refuse(number_expected(sign, unit), advice); };
+std::string number_expected(const std::string& unit, const Range& range) {
+  return fmt::format("a number{}{}", range.text(), unit.empty() ? "" : fmt::format(" [{}]", unit));
+}
+
+double read_number(const Value& value, const std::string& unit, const Range& range) {
+  const auto refuse = [&](const std::string& advice) { value.refuse(number_expected(unit, range), advice); };
   if (value.node.IsScalar() && !is_plain_scalar(value)) refuse("Write it without quotes.");
   if (!value.node.IsScalar()) refuse("Write one number, like 2.5 or 1.0e-3.");
   const auto number = parsed<double>(value.node.Scalar());
   if (!number || !std::isfinite(*number)) refuse(number_advice(value.node.Scalar()));
-  if ((sign == Sign::positive && !(*number > 0)) || (sign == Sign::not_negative && *number < 0))
-    refuse("Correct the value.");
+  if (!range.contains(*number)) refuse("Correct the value.");
   return *number;
 }
-
-double read_angle(const Value& value) { return read_number(value, Sign::any, "deg") * std::numbers::pi / 180; }
 
 int read_integer(const Value& value, int lowest) {
   const auto number = is_plain_scalar(value) ? parsed<int>(value.node.Scalar()) : std::nullopt;
@@ -219,7 +223,7 @@ std::vector<double> read_numbers(const Value& value, std::size_t count, const st
   if (items.size() != count) value.refuse(expected, fmt::format("Write exactly {} numbers.", count));
   std::vector<double> numbers;
   numbers.reserve(count);
-  for (const Value& item : items) numbers.push_back(read_number(item, Sign::any, ""));
+  for (const Value& item : items) numbers.push_back(read_number(item, "", {}));
   return numbers;
 }
 

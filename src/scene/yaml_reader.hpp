@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "cablenet/base/linear_algebra.hpp"
+#include "cablenet/scene/keys.hpp"
 
-/// Typed reading of a YAML file in which every refusal names file:line, key path, value, what is allowed and what to
-/// do.  Tests: tests/unit/read_test.cpp, tests/cases/broken/
+/// Reads single values of a YAML file.  Every refusal names the file and line, the key's path, the value, what is
+/// allowed there and what to do.  Tests: tests/unit/read_test.cpp, tests/cases/broken/
 namespace cablenet::scene {
 
 /// A value of the file and where it stands.
@@ -34,25 +35,25 @@ struct Named {
 /// A map with a fixed set of keys.
 class Section {
 public:
-  /// @throws InputError if `map` is no map, a key is unknown or doubled.
-  Section(const Value& map, const std::vector<const char*>& allowed);
+  /// @throws InputError if `map` is no map, a key is unknown or doubled, or not exactly one is there where one must be.
+  Section(const Value& map, const KeyTable&);
 
-  const Value* find(const char* key) const;   ///< nullptr if absent
-  /// @throws InputError if absent, saying what was `expected`.
-  const Value& require(const char* key, const std::string& expected) const;
+  const Value* find(const std::string& key) const;   ///< nullptr if absent
+  /// @throws InputError if absent, saying what was expected and `why` it is needed.
+  const Value& require(const std::string& key, const std::string& why = "") const;
   const Value& map() const { return map_; }
 
 private:
   Value map_;
+  const KeyTable& table_;
   std::vector<Named> entries_;
 };
 
-enum class Sign { any, not_negative, positive };
+/// "a number > 0 [m]".
+std::string number_expected(const std::string& unit, const Range&);
 
 /// @param unit  for messages: "m"; empty for a pure number
-double read_number(const Value&, Sign, const std::string& unit);
-/// Written in degrees.  [rad]
-double read_angle(const Value&);
+double read_number(const Value&, const std::string& unit, const Range&);
 int read_integer(const Value&, int lowest);
 bool read_boolean(const Value&);
 std::string read_text(const Value&, const std::string& expected);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cablenet/base/linear_algebra.hpp"
+#include "cablenet/scene/choice.hpp"
 
 /// A rigid body as the scene describes it.
 namespace cablenet::scene {
@@ -17,6 +18,9 @@ struct Attachment {
 
 /// How a body's attitude is described to the solver.
 enum class Rotation { quaternion, euler };
+template <>
+inline constexpr std::array<Choice<Rotation>, 2> choices<Rotation>{
+    {{Rotation::quaternion, "quaternion"}, {Rotation::euler, "euler"}}};
 
 struct Body {
   std::string name;

@@ -9,6 +9,7 @@
 #include "cablenet/environment/bed.hpp"
 #include "cablenet/environment/fluid.hpp"
 #include "cablenet/scene/body.hpp"
+#include "cablenet/scene/choice.hpp"
 #include "cablenet/scene/motion.hpp"
 #include "cablenet/scene/time.hpp"
 
@@ -62,6 +63,10 @@ struct BodyEnd {
 using CableEnd = std::variant<PointEnd, TapEnd, NetEnd, BodyEnd>;
 
 enum class Shape { straight, catenary, polyline };
+/// A polyline is drawn as a list of its points and has no word.
+template <>
+inline constexpr std::array<Choice<Shape>, 2> choices<Shape>{
+    {{Shape::straight, "straight"}, {Shape::catenary, "catenary"}}};
 
 struct Cable {
   std::string name;
@@ -77,6 +82,9 @@ struct Cable {
 };
 
 enum class Edge { top, right, bottom, left };
+template <>
+inline constexpr std::array<Choice<Edge>, 4> choices<Edge>{
+    {{Edge::top, "top"}, {Edge::right, "right"}, {Edge::bottom, "bottom"}, {Edge::left, "left"}}};
 
 struct Net {
   std::string name;

@@ -2,10 +2,16 @@
 #include <optional>
 #include <vector>
 
+#include "cablenet/scene/choice.hpp"
+
 /// How a scene goes through time, and what it writes.
 namespace cablenet::scene {
 
 enum class Scheme { energy_momentum, generalized_alpha, plain };
+template <>
+inline constexpr std::array<Choice<Scheme>, 3> choices<Scheme>{{{Scheme::energy_momentum, "energy_momentum"},
+                                                                {Scheme::generalized_alpha, "generalized_alpha"},
+                                                                {Scheme::plain, "plain"}}};
 
 struct Time {
   double start = 0;

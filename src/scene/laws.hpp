@@ -1,0 +1,36 @@
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "cablenet/scene/motion.hpp"
+#include "cablenet/scene/time.hpp"
+#include "rows.hpp"
+
+/// Vectors that depend on time, as a scene file gives them: by rows or by expressions.  Their form is the same for each
+/// quantity, only units differ.  Tests: tests/unit/read_test.cpp, tests/cases/broken/
+namespace cablenet::scene {
+
+/// Rows [t, x, y, z] in the order of time.
+struct TimedRows {
+  std::vector<double> times;      ///< [s], increasing
+  std::vector<Vector3> vectors;   ///< one per time
+};
+
+/// Three expressions of the time t.
+struct WrittenVector {
+  std::array<std::string, 3> texts{"0", "0", "0"};
+};
+
+/// A list of at least two rows [t, x, y, z].  @param unit  of x, y and z
+Kind<TimedRows> timed_rows(const std::string& unit);
+/// {x, y, z}.
+Kind<WrittenVector> written_vector();
+
+/// @throws InputError at `value` if the rows do not cover the scene's time.
+void check_covered(const Value& value, const TimedRows&, const Time&);
+/// @param law  made of the expressions at `value`   @param what  must be finite: "position, velocity or acceleration"
+/// @throws InputError at `value` if the law is not finite at some time of the scene.
+void check_finite(const Value& value, const Motion& law, const Time&, const std::string& what);
+
+}   // namespace cablenet::scene
