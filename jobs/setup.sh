@@ -8,7 +8,8 @@ packages=(
   g++ cmake make pkg-config
   libpetsc-real-dev libopenblas0-serial libopenmpi-dev openmpi-bin libmetis-dev libhdf5-openmpi-dev
   libeigen3-dev libyaml-cpp-dev libcli11-dev libfmt-dev libginac-dev libmuparser-dev libgsl-dev libxxhash-dev
-  libgtest-dev clang-format python3 python3-numpy python3-h5py python3-yaml
+  nlohmann-json3-dev
+  libgtest-dev clang-format python3 python3-numpy python3-h5py python3-yaml python3-jsonschema
 )
 picture_packages=(paraview python3-paraview xvfb xauth python3-matplotlib)
 
@@ -60,8 +61,8 @@ install_packages() {
 advise() {
   echo "setup: $1" >&2
   echo "setup: needed are a C++20 compiler, CMake >= 3.18, make, pkg-config, PETSc >= 3.18 (real scalars), a fast BLAS, Open MPI," >&2
-  echo "setup: METIS, parallel HDF5, Eigen 3, yaml-cpp, CLI11, fmt, GiNaC, muParser, GSL, xxHash, GoogleTest;" >&2
-  echo "setup: for tests and pictures clang-format, ParaView, Xvfb, python3 with numpy, h5py, yaml, matplotlib" >&2
+  echo "setup: METIS, parallel HDF5, Eigen 3, yaml-cpp, CLI11, fmt, GiNaC, muParser, GSL, xxHash, JSON for Modern C++, GoogleTest;" >&2
+  echo "setup: for tests and pictures clang-format, ParaView, Xvfb, python3 with numpy, h5py, yaml, jsonschema, matplotlib" >&2
   echo "setup: going on with what is here" >&2
 }
 

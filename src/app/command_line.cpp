@@ -44,6 +44,15 @@ std::vector<std::string> take_petsc_options(std::vector<std::string>& words) {
   return options;
 }
 
+/// @throws InputError if the command takes no PETSc options and there are some.
+Command command_of(const CLI::App& app, const CommandLine& line) {
+  if (app.got_subcommand("run")) return line.scene.empty() ? Command::solver_help : Command::run;
+  const std::string name = app.get_subcommands().front()->get_name();
+  if (!line.petsc_options.empty())
+    throw InputError(fmt::format("{} takes no option {}; see cablenet --help", name, line.petsc_options.front()));
+  return name == "check" ? Command::check : Command::schema;
+}
+
 }   // namespace
 
 CommandLine parse_command_line(const std::vector<std::string>& given) {
@@ -63,11 +72,14 @@ CommandLine parse_command_line(const std::vector<std::string>& given) {
   run->footer("PETSc's own options: cablenet run -help");
   CLI::App* check = app.add_subcommand("check", "read and validate a scene, print its size, write nothing");
   check->add_option("SCENE", line.scene, "the scene, a YAML file")->required();
+  CLI::App* schema = app.add_subcommand("schema", "print a JSON Schema of scene files, for editors");
+  schema->add_flag("--markdown", line.wants_markdown, "print the reference of all keys instead");
   try {
     std::reverse(words.begin(), words.end());
     app.parse(words);
   } catch (const CLI::CallForHelp&) {
-    line.text = run->parsed() ? run->help() : check->parsed() ? check->help() : app.help();
+    const auto subcommands = app.get_subcommands();
+    line.text = subcommands.empty() ? app.help() : subcommands.front()->help();
     return line;
   } catch (const CLI::CallForVersion& version) {
     line.command = Command::version;
@@ -76,9 +88,7 @@ CommandLine parse_command_line(const std::vector<std::string>& given) {
   } catch (const CLI::ParseError& error) {
     throw InputError(fmt::format("{}; see cablenet --help", error.what()));
   }
-  line.command = check->parsed() ? Command::check : line.scene.empty() ? Command::solver_help : Command::run;
-  if (check->parsed() && !line.petsc_options.empty())
-    throw InputError(fmt::format("check takes no option {}; see cablenet --help", line.petsc_options.front()));
+  line.command = command_of(app, line);
   if (line.directory.empty()) line.directory = std::filesystem::path(line.scene).stem().string() + ".out";
   return line;
 }

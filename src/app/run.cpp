@@ -18,6 +18,7 @@
 #include "cablenet/network/build.hpp"
 #include "cablenet/petsc/session.hpp"
 #include "cablenet/scene/read.hpp"
+#include "cablenet/scene/schema.hpp"
 
 namespace cablenet::app {
 namespace {
@@ -100,7 +101,10 @@ int execute(const CommandLine& line) {
     report_unused_options();
     return status;
   }
-  if (this_rank() == 0) std::fputs(line.text.c_str(), stdout);
+  if (this_rank() != 0) return 0;
+  const bool wants_keys = line.command == Command::schema;
+  const std::string keys = !wants_keys ? "" : line.wants_markdown ? scene::key_reference() : scene::json_schema();
+  std::fputs(wants_keys ? keys.c_str() : line.text.c_str(), stdout);
   return 0;
 }
 

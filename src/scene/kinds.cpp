@@ -15,6 +15,10 @@ std::string written_vector(const Vector3& v) { return fmt::format("[{}, {}, {}]"
 
 std::string written_six(const std::array<double, 6>& numbers) { return fmt::format("[{}]", fmt::join(numbers, ", ")); }
 
+std::string expected_of(const NumberForm& form) {
+  return form.is_whole ? fmt::format("an integer{}", form.range.text()) : number_expected(form.unit, form.range);
+}
+
 }   // namespace
 
 Kind<double> number(const std::string& unit, const Range& range) {
@@ -29,7 +33,8 @@ Kind<double> angle() {
 }
 
 Kind<int> integer(int lowest) {
-  return {{fmt::format("an integer >= {}", lowest), NumberForm{"", at_least(lowest), true}},
+  const NumberForm form{"", at_least(lowest), true};
+  return {{expected_of(form), form},
           [lowest](const Value& value) { return read_integer(value, lowest); },
           [](const int& number) { return fmt::format("{}", number); }};
 }
@@ -77,7 +82,7 @@ Kind<std::array<double, 6>> six_numbers(const std::string& along, const std::str
 
 Form row_form(const std::string& labels, const std::vector<NumberForm>& items) {
   RowForm row;
-  for (const NumberForm& item : items) row.items.push_back({number_expected(item.unit, item.range), item});
+  for (const NumberForm& item : items) row.items.push_back({expected_of(item), item});
   return {labels, row};
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,23 @@ struct TimedRows {
 struct WrittenVector {
   std::array<std::string, 3> texts{"0", "0", "0"};
 };
+
+/// A motion as the file gives it, before the point's position is known.  Without any of the four it is `fixed`.
+struct MotionKeys {
+  struct Harmonic {
+    Vector3 amplitude = Vector3::Zero();   ///< [m]
+    double period = 0;                     ///< [s]
+    double phase = 0;                      ///< [rad]
+  };
+  std::optional<Vector3> velocity;   ///< [m/s]
+  std::optional<TimedRows> waypoints;
+  std::optional<Harmonic> harmonic;
+  std::optional<WrittenVector> expression;
+  std::optional<Value> law;   ///< the value of the one that is given
+};
+Kind<MotionKeys> motion();
+/// @throws InputError if the motion is not known at all times of the scene.
+Motion make_motion(const MotionKeys&, const Vector3& position, const Time&);
 
 /// A list of at least two rows [t, x, y, z].  @param unit  of x, y and z
 Kind<TimedRows> timed_rows(const std::string& unit);

@@ -59,7 +59,6 @@ Form cables_form();
 Form nets_form();
 Form time_form();
 Form output_form();
-Form motion_form();
 
 /// Gravity, fluid and bed of the scene.
 void read_environment(const Value&, Scene&);
@@ -70,7 +69,6 @@ Output read_output(const std::optional<Value>&, const Time&, const SceneNames&);
 std::vector<CableType> read_cable_types(const Value&, const Scene&, Names& types);
 std::vector<PointDraft> read_points(const Value&, const Time&);
 std::vector<BodyDraft> read_bodies(const Value&);
-Motion read_motion(const Value&, const Vector3& position, const Time&);
 std::vector<CableDraft> read_cables(const Value&, const Names& types);
 std::vector<Net> read_nets(const Value&, const Names& types, Names& nets);
 

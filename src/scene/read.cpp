@@ -24,7 +24,7 @@ struct TopKeys {
 
 const Table<TopKeys>& top_table() {
   static const Table<TopKeys> table(
-      "A scene.", {{"title", text("a text"), standard, "What the scene is called.", &TopKeys::title},
+      "A scene.", {{"title", text("a text"), absent("none"), "What the scene is called.", &TopKeys::title},
                    {"environment", later(environment_form()), absent("gravity alone"), "What surrounds the cables.",
                     &TopKeys::environment},
                    {"cable_types", later(cable_types_form()), absent("allowed without cables and nets only"),
@@ -37,8 +37,8 @@ const Table<TopKeys>& top_table() {
                     "Whether a run starts as drawn (rest) or from the equilibrium (static).", &TopKeys::initial},
                    {"time", later(time_form()), absent("the equilibrium is the result"),
                     "How the scene goes through time.", &TopKeys::time},
-                   {"output", later(output_form()), absent("frames of positions and tensions alone"),
-                    "What is written.", &TopKeys::output}});
+                   {"output", later(output_form()), absent("100 frames and an empty history"), "What is written.",
+                    &TopKeys::output}});
   return table;
 }
 

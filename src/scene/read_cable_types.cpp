@@ -21,13 +21,12 @@ struct TypeKeys : CableType {
   std::optional<double> given_area, given_diameter, density, youngs_modulus, given_mass, given_stiffness;
 };
 const std::string from_density = "density times area", from_modulus = "youngs_modulus times area";
-const std::string circle = "that of a circle";
 const Table<TypeKeys> type_table(
     "What a cable is made of.",
-    {{"area", number("m2", above(0)), absent(circle), "The cross-section, for mass, stiffness and buoyancy.",
-      &TypeKeys::given_area},
-     {"diameter", number("m", above(0)), absent(circle), "The diameter, for drag and for contact with the bed.",
-      &TypeKeys::given_diameter},
+    {{"area", number("m2", above(0)), absent("that of a circle of the diameter"),
+      "The cross-section, for mass, stiffness and buoyancy.", &TypeKeys::given_area},
+     {"diameter", number("m", above(0)), absent("that of a circle of the area"),
+      "The diameter, for drag and for contact with the bed.", &TypeKeys::given_diameter},
      {"density", number("kg/m3", above(0)), absent("mass_per_length is given"),
       "The mass of the unstretched cable per volume.", &TypeKeys::density},
      {"mass_per_length", number("kg/m", above(0)), absent(from_density),

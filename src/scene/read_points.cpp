@@ -1,16 +1,16 @@
 #include <fmt/format.h>
 
+#include "laws.hpp"
 #include "parts.hpp"
-#include "rows.hpp"
 
 namespace cablenet::scene {
 
 namespace {
 
-/// What a point's motion is depends on its position and on the scene's time.
+/// A point's motion is made when its position and the scene's time are known.
 struct PointKeys : Point {
   std::optional<Vector3> given_position;
-  std::optional<Value> given_motion;
+  std::optional<MotionKeys> given_motion;
 };
 
 const Table<PointKeys>& point_table() {
@@ -22,8 +22,7 @@ const Table<PointKeys>& point_table() {
        {"mass", number("kg", at_least(0)), standard, "A mass at the point, beside that of its cables.",
         &PointKeys::mass},
        {"force", vector("N"), standard, "A constant force on the point, in the world's axes.", &PointKeys::force},
-       {"motion", later(motion_form()), absent("the point is free"), "How the point is held or moved.",
-        &PointKeys::given_motion},
+       {"motion", motion(), absent("the point is free"), "How the point is held or moved.", &PointKeys::given_motion},
        Row<PointKeys>("volume", number("m3", at_least(0)), standard, "The water that a free point displaces.",
                       &PointKeys::volume)
            .in_fluid(),
@@ -36,14 +35,10 @@ const Table<PointKeys>& point_table() {
   return table;
 }
 
-bool has_waypoints(const std::optional<Value>& motion) {
-  return motion && motion->node.IsMap() && motion->node["waypoints"].IsDefined();
-}
-
 /// A point that is held or moved takes neither a velocity nor forces of the water.
 void check_moved(const Section& section, const PointKeys& point) {
   const Value* velocity = section.find("velocity");
-  const bool is_fixed = point.given_motion->node.IsScalar();
+  const bool is_fixed = !point.given_motion->law;
   if (velocity != nullptr && !(is_fixed && point.velocity.isZero(0)))
     velocity->fail(is_fixed ? "the point is fixed; expected no velocity. Remove velocity, or motion."
                             : "the point's motion says its velocity; expected none here. Remove velocity, or motion.");
@@ -62,13 +57,14 @@ PointDraft read_point(const Named& named, const Time& time) {
   const Section section = read_rows(named.value, point_table(), point);
   point.name = named.name;
   point.where = named.value.where();
-  if (!has_waypoints(point.given_motion)) section.require("position");
+  const bool has_waypoints = point.given_motion && point.given_motion->waypoints;
+  if (!has_waypoints) section.require("position");
   point.position = point.given_position.value_or(Vector3::Zero());
   if (point.given_motion) {
-    point.motion = read_motion(*point.given_motion, point.position, time);
+    point.motion = make_motion(*point.given_motion, point.position, time);
     check_moved(section, point);
   }
-  if (has_waypoints(point.given_motion)) point.position = point.motion->at(time.start).x;
+  if (has_waypoints) point.position = point.motion->at(time.start).x;
   return {point, named.value};
 }
 

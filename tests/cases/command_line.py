@@ -1,5 +1,6 @@
 """What the command line promises: exit statuses, files, PETSc options, help."""
 import csv
+import json
 import subprocess
 import sys
 
@@ -110,13 +111,20 @@ def failures_are_told(bench):
 
 def help_and_check(bench):
     before = sorted(bench.folder.iterdir())
-    for words in (("--help",), ("run", "--help"), ("check", "--help"), ("--version",), ("run", "-help")):
+    for words in (("--help",), ("run", "--help"), ("check", "--help"), ("schema", "--help"), ("schema",),
+                  ("schema", "--markdown"), ("--version",), ("run", "-help")):
         done = bench(*words)
         expect(done.returncode == 0 and done.stdout, " ".join(words) + " prints")
     done = bench("check", "scene.yaml")
     expect(done.returncode == 0 and all(part in done.stdout for part in ("25 nodes", "24 elements", "0 bodies", "72 unknowns")),
            "check counts")
     expect(sorted(bench.folder.iterdir()) == before, "and writes nothing")
+    schema = json.loads(bench("schema", ranks=2).stdout)
+    expect(schema["properties"]["environment"]["properties"]["gravity"]["default"] == 9.80665,
+           "the schema is printed once on two ranks")
+    done = bench("schema", "-ts_dt", "1e-3")
+    expect(done.returncode == 2 and "schema takes no option -ts_dt" in done.stderr, "schema takes no PETSc options")
+    expect("schema" in bench("--help").stdout, "--help tells of the schema")
 
 
 def stale_results(bench):

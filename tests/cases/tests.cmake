@@ -1,6 +1,7 @@
 include(${CMAKE_CURRENT_LIST_DIR}/broken.cmake)
 include(${CMAKE_CURRENT_LIST_DIR}/ranks.cmake OPTIONAL)
 cablenet_script_test(cases_command_line cases/command_line.py 120 cases)
+cablenet_script_test(cases_schema cases/schema.py 60 cases)
 cablenet_script_test(cases_crash cases/crash.py 300 cases)
 foreach(ranks 1 3)
   cablenet_script_test(cases_paraview_np${ranks} cases/paraview_read.py 120 cases --ranks ${ranks})
