@@ -49,15 +49,10 @@ system::ForceRule force_rule(const scene::Time& time) {
 }
 
 std::string scheme_name(const scene::Time& time, const system::ForceRule& rule) {
-  switch (time.scheme) {
-    case scene::Scheme::energy_momentum:
-      return fmt::format("energy_momentum, axial dissipation {}", rule.axial_dissipation);
-    case scene::Scheme::generalized_alpha:
-      return fmt::format("generalized_alpha, spectral radius {}", time.spectral_radius);
-    case scene::Scheme::plain:
-      return fmt::format("plain, spectral radius {}", time.spectral_radius);
-  }
-  return "";
+  const std::string name = scene::name_of(time.scheme);
+  if (time.scheme == scene::Scheme::energy_momentum)
+    return fmt::format("{}, axial dissipation {}", name, rule.axial_dissipation);
+  return fmt::format("{}, spectral radius {}", name, time.spectral_radius);
 }
 
 }   // namespace cablenet::app
