@@ -19,13 +19,13 @@ constexpr std::int64_t most_nodes = 700'000'000;
                   most_nodes));
 }
 
-using Table = std::unordered_map<std::string, std::size_t>;
+using CablesByName = std::unordered_map<std::string, std::size_t>;
 
 /// The drafts that a draft's two ends are tapped on; a draft that does not exist is reported elsewhere.
-std::vector<std::size_t> hosts(const CableDraft& draft, const Table& table) {
+std::vector<std::size_t> hosts(const CableDraft& draft, const CablesByName& table) {
   std::vector<std::size_t> result;
   for (const Reference* end : {&draft.from, &draft.to}) {
-    if (end->kind != Reference::Kind::cable) continue;
+    if (end->target != Reference::Target::cable) continue;
     const auto found = table.find(end->name.substr(0, end->name.find('[')));
     if (found != table.end()) result.push_back(found->second);
   }
@@ -48,7 +48,7 @@ std::vector<std::size_t> hosts(const CableDraft& draft, const Table& table) {
 /// Depth first without recursion, as chains of taps may be as long as the scene.
 class CircleSearch {
 public:
-  CircleSearch(const std::vector<CableDraft>& drafts, const Table& table)
+  CircleSearch(const std::vector<CableDraft>& drafts, const CablesByName& table)
       : drafts_(drafts), table_(table), states_(drafts.size(), State::unseen) {}
 
   void visit(std::size_t start) {
@@ -77,7 +77,7 @@ private:
   }
 
   const std::vector<CableDraft>& drafts_;
-  const Table& table_;
+  const CablesByName& table_;
   std::vector<State> states_;
   std::vector<std::size_t> path_;
   std::vector<std::vector<std::size_t>> open_;
@@ -143,7 +143,7 @@ void check_size(const std::vector<CableDraft>& cables, const std::vector<Net>& n
 }
 
 void check_circles(const std::vector<CableDraft>& drafts) {
-  Table table;
+  CablesByName table;
   for (std::size_t i = 0; i < drafts.size(); ++i) table[drafts[i].cable.name] = i;
   CircleSearch search(drafts, table);
   for (std::size_t i = 0; i < drafts.size(); ++i) search.visit(i);

@@ -9,7 +9,7 @@ namespace cablenet::scene {
 
 namespace {
 
-using Kind = Reference::Kind;
+using Target = Reference::Target;
 
 /// One draft's cables; the ends are those of its first copy.
 struct Ends {
@@ -27,8 +27,9 @@ public:
 
 private:
   CableEnd end(const Reference& reference, bool is_repeated) const {
-    if (reference.kind == Kind::cable) return TapEnd{names_.cables.one(reference.value, reference.name), reference.at};
-    if (reference.kind == Kind::net) return net_end(reference);
+    if (reference.target == Target::cable)
+      return TapEnd{names_.cables.one(reference.value, reference.name), reference.at};
+    if (reference.target == Target::net) return net_end(reference);
     if (is_repeated && names_.points.has(reference.name)) return PointEnd{names_.points.find(reference.name)->first};
     if (names_.points.find(reference.name)) return PointEnd{names_.points.one(reference.value, reference.name)};
     const auto parts = split_attachment(reference.name);

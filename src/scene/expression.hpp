@@ -3,19 +3,20 @@
 #include <memory>
 #include <string>
 
-/// A function of time given as text, with its first two derivatives.  Tests: tests/unit/motion_test.cpp
+/// A function of time that the user wrote as a text.  Tests: tests/unit/motion_test.cpp
 namespace cablenet::scene {
 
-/// Differentiated symbolically by GiNaC once, evaluated as muParser bytecode from then on.
-/// Limits: evaluation writes the variable that the bytecode reads, so one object belongs to one thread.
+/// GiNaC differentiates the text once, when the object is made.  From then on muParser evaluates the function and its
+/// first two derivatives as bytecode.
+/// Limits: an evaluation writes the variable that the bytecode reads, so only one thread may use an object.
 class Expression {
 public:
-  /// @throws InputError if `text` is no twice differentiable expression of t, naming the text and what is allowed.
+  /// @throws InputError if `text` is no twice differentiable expression of t, and says why.
   explicit Expression(const std::string& text);
   ~Expression();
   Expression(Expression&&) noexcept;
 
-  /// Value, first and second derivative.
+  /// The value, the first and the second derivative at t [s].
   std::array<double, 3> at(double t) const;
 
 private:

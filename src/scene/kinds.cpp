@@ -51,7 +51,7 @@ Kind<std::string> text(const std::string& expected) {
 
 Kind<Vector3> vector(const std::string& unit) {
   const NumberForm component{unit, any_number};
-  return {row_form(fmt::format("[x, y, z], three numbers [{}]", unit), {component, component, component}),
+  return {tuple_form(fmt::format("[x, y, z], three numbers [{}]", unit), {component, component, component}),
           [unit](const Value& value) { return read_vector(value, unit); }, written_vector};
 }
 
@@ -63,7 +63,7 @@ Kind<std::array<int, 2>> integer_pair(const std::string& labels, int lowest) {
     if (items.size() != 2) value.refuse(expected, "Write exactly 2.");
     return std::array{read_integer(items[0], lowest), read_integer(items[1], lowest)};
   };
-  return {row_form(expected, {item, item}), read, nullptr};
+  return {tuple_form(expected, {item, item}), read, nullptr};
 }
 
 Kind<std::array<double, 6>> six_numbers(const std::string& along, const std::string& about) {
@@ -77,11 +77,11 @@ Kind<std::array<double, 6>> six_numbers(const std::string& along, const std::str
     for (std::size_t i = 0; i < 6; ++i) numbers[i] = read_number(items[i], i < 3 ? along : about, at_least(0));
     return numbers;
   };
-  return {row_form(expected, {one, one, one, other, other, other}), read, written_six};
+  return {tuple_form(expected, {one, one, one, other, other, other}), read, written_six};
 }
 
-Form row_form(const std::string& labels, const std::vector<NumberForm>& items) {
-  RowForm row;
+Form tuple_form(const std::string& labels, const std::vector<NumberForm>& items) {
+  TupleForm row;
   for (const NumberForm& item : items) row.items.push_back({expected_of(item), item});
   return {labels, row};
 }

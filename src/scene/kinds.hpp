@@ -8,7 +8,7 @@
 #include "cablenet/scene/keys.hpp"
 #include "yaml_reader.hpp"
 
-/// The kinds of values that keys may have.  A kind knows the form of a value in the file and how to read one.
+/// The kinds of values that keys may have.  A kind says what a value looks like in the file and reads one.
 /// Tests: tests/unit/keys_test.cpp
 namespace cablenet::scene {
 
@@ -17,7 +17,7 @@ template <class V>
 struct Kind {
   Form form;
   std::function<V(const Value&)> read;
-  std::function<std::string(const V&)> written;   ///< the value as a file has it; none where no default needs it
+  std::function<std::string(const V&)> written;   ///< writes a value as a file has it; none where no row needs it
 };
 
 inline constexpr Range any_number{};
@@ -40,7 +40,7 @@ Kind<std::array<int, 2>> integer_pair(const std::string& labels, int lowest);
 Kind<std::array<double, 6>> six_numbers(const std::string& along, const std::string& about);
 
 /// The form of a list of numbers.  @param labels  "[t, x, y, z], four numbers [s, m, m, m]"
-Form row_form(const std::string& labels, const std::vector<NumberForm>& items);
+Form tuple_form(const std::string& labels, const std::vector<NumberForm>& items);
 /// The form of a list.  @param expected  "a list of at least 2 rows [x, y, z] [m]"
 Form list_form(const std::string& expected, const Form& item, std::size_t least = 0);
 /// The form of a map from names.  @param expected  "a map from names to points"
@@ -52,7 +52,7 @@ Form either_form(const std::string& expected, const std::vector<Form>& forms);
 /// "a, b, c".
 std::string joined_names(const std::vector<Key>&);
 
-/// A value that is looked at later, when what it depends on is known.
+/// A value of this form that is kept as it is.  It is read when the values that it depends on are known.
 inline Kind<Value> later(const Form& form) {
   return {form, [](const Value& value) { return value; }, nullptr};
 }

@@ -57,19 +57,6 @@ const Table<WrittenVector>& written_table() {
   return table;
 }
 
-}   // namespace
-
-Kind<TimedRows> timed_rows(const std::string& unit) {
-  const std::string units = fmt::format("[s, {}, {}, {}]", unit, unit, unit);
-  const std::string labels = "[t, x, y, z], four numbers " + units;
-  const NumberForm time{"s", any_number}, component{unit, any_number};
-  const Form form = list_form("a list of at least 2 rows [t, x, y, z] " + units,
-                              row_form(labels, {time, component, component, component}), 2);
-  return {form, [=](const Value& value) { return read_timed_rows(value, form, labels); }, nullptr};
-}
-
-Kind<WrittenVector> written_vector() { return section(written_table()); }
-
 void check_covered(const Value& value, const TimedRows& rows, const Time& time) {
   if (rows.times.front() <= time.start && rows.times.back() >= time.end) return;
   value.fail(fmt::format("the rows cover {}..{} s; expected {}. Add rows or {}.", rows.times.front(), rows.times.back(),
@@ -86,6 +73,29 @@ void check_finite(const Value& value, const Motion& law, const Time& time, const
       value.fail(fmt::format("{} is not finite at t = {} s; expected finite ones at {}. Change the expression.", what,
                              t, needed_times(time)));
   }
+}
+
+}   // namespace
+
+Kind<TimedRows> timed_rows(const std::string& unit) {
+  const std::string units = fmt::format("[s, {}, {}, {}]", unit, unit, unit);
+  const std::string labels = "[t, x, y, z], four numbers " + units;
+  const NumberForm time{"s", any_number}, component{unit, any_number};
+  const Form form = list_form("a list of at least 2 rows [t, x, y, z] " + units,
+                              tuple_form(labels, {time, component, component, component}), 2);
+  return {form, [=](const Value& value) { return read_timed_rows(value, form, labels); }, nullptr};
+}
+
+Kind<WrittenVector> written_vector() { return section(written_table()); }
+
+Motion make_law(const LawKeys& keys, const Vector3& origin, const Time& time, const std::string& what) {
+  if (keys.waypoints) {
+    check_covered(*keys.law, *keys.waypoints, time);
+    return Motion::waypoints(keys.waypoints->times, keys.waypoints->vectors);
+  }
+  const Motion law = Motion::expression(origin, keys.expression->texts);
+  check_finite(*keys.law, law, time, what);
+  return law;
 }
 
 }   // namespace cablenet::scene

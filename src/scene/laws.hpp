@@ -23,32 +23,36 @@ struct WrittenVector {
   std::array<std::string, 3> texts{"0", "0", "0"};
 };
 
+/// A list of at least two rows [t, x, y, z].  @param unit  of x, y and z
+Kind<TimedRows> timed_rows(const std::string& unit);
+/// {x, y, z}.
+Kind<WrittenVector> written_vector();
+
+/// A vector that depends on time, as the file gives it: one of the two.
+struct LawKeys {
+  std::optional<TimedRows> waypoints;
+  std::optional<WrittenVector> expression;
+  std::optional<Value> law;   ///< the value of the one that is given, for messages
+};
+
+/// The vector that goes through the waypoints, or origin + expression.
+/// @param what  must be finite, for messages: "position, velocity or acceleration"
+/// @throws InputError if the waypoints do not cover the scene's time, or if the expression is not finite at some time
+/// of the scene.
+Motion make_law(const LawKeys&, const Vector3& origin, const Time&, const std::string& what);
+
 /// A motion as the file gives it, before the point's position is known.  Without any of the four it is `fixed`.
-struct MotionKeys {
+struct MotionKeys : LawKeys {
   struct Harmonic {
     Vector3 amplitude = Vector3::Zero();   ///< [m]
     double period = 0;                     ///< [s]
     double phase = 0;                      ///< [rad]
   };
   std::optional<Vector3> velocity;   ///< [m/s]
-  std::optional<TimedRows> waypoints;
   std::optional<Harmonic> harmonic;
-  std::optional<WrittenVector> expression;
-  std::optional<Value> law;   ///< the value of the one that is given
 };
 Kind<MotionKeys> motion();
 /// @throws InputError if the motion is not known at all times of the scene.
 Motion make_motion(const MotionKeys&, const Vector3& position, const Time&);
-
-/// A list of at least two rows [t, x, y, z].  @param unit  of x, y and z
-Kind<TimedRows> timed_rows(const std::string& unit);
-/// {x, y, z}.
-Kind<WrittenVector> written_vector();
-
-/// @throws InputError at `value` if the rows do not cover the scene's time.
-void check_covered(const Value& value, const TimedRows&, const Time&);
-/// @param law  made of the expressions at `value`   @param what  must be finite: "position, velocity or acceleration"
-/// @throws InputError at `value` if the law is not finite at some time of the scene.
-void check_finite(const Value& value, const Motion& law, const Time&, const std::string& what);
 
 }   // namespace cablenet::scene

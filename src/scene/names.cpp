@@ -55,10 +55,10 @@ std::optional<std::pair<int, int>> Names::find(const std::string& name) const {
 }
 
 int Names::one(const Value& value, const std::string& name) const {
-  const auto entry = table_.find(name);
-  if (entry != table_.end() && entry->second.copies > 0)
+  const auto listed_as = table_.find(name);
+  if (listed_as != table_.end() && listed_as->second.copies > 0)
     value.fail(fmt::format("{} is a repeated {}; expected one of its copies: {}. Name one of them.", name, kind_,
-                           copies_of(name, entry->second.copies)));
+                           copies_of(name, listed_as->second.copies)));
   if (const auto found = find(name)) return found->first;
   const auto indexed = split(name);
   const auto base = indexed ? table_.find(indexed->name) : table_.end();

@@ -10,26 +10,29 @@
 /// What the things of a scene are called.  Tests: tests/unit/read_test.cpp
 namespace cablenet::scene {
 
-/// Names of one kind of thing, and where their copies stand in the expanded list.
+/// The names of all things of one kind.  A name stands for one thing or for all copies of a repeated one; the copies
+/// follow each other in the list of all things, and name[k] is one of them.
 class Names {
 public:
   explicit Names(std::string kind) : kind_(std::move(kind)) {}   ///< "point", "cable", ... for messages
+  /// @param first   its index, or that of its first copy
   /// @param copies  0: a single thing; n: repeated as name[0] .. name[n-1]
   void add(const std::string& name, int first, int copies);
   bool has(const std::string& name) const { return table_.count(name) > 0; }
-  /// First index and count of `name`, `name[k]` or all copies of a repeated `name`.
+  /// The first index and the number of things that `name` stands for; nothing if it is not known.
   std::optional<std::pair<int, int>> find(const std::string& name) const;
-  /// The one thing that `name` is.  @throws InputError at `value` if there is none, or several.
+  /// The index of the one thing that `name` stands for.
+  /// @throws InputError at `value` if there is none, or several.
   int one(const Value& value, const std::string& name) const;
   const std::vector<std::string>& all() const { return names_; }
 
 private:
-  struct Extent {
+  struct Listed {
     int first, copies;
   };
   std::string kind_;
   std::vector<std::string> names_;
-  std::unordered_map<std::string, Extent> table_;
+  std::unordered_map<std::string, Listed> table_;
 };
 
 /// The names of everything in a scene.
@@ -37,11 +40,11 @@ struct SceneNames {
   Names types{"cable type"}, points{"point"}, bodies{"body"}, cables{"cable"}, nets{"net"};
 };
 
-/// The parts of "fish[2].top".
+/// The two parts of a name such as "fish[2].top".
 struct AttachmentName {
   std::string body, attachment;
 };
-/// Nothing if `text` has no dot.
+/// The parts of `text`, which the first dot separates; nothing if there is no dot.
 std::optional<AttachmentName> split_attachment(const std::string& text);
 
 }   // namespace cablenet::scene

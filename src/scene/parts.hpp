@@ -8,34 +8,35 @@
 #include "names.hpp"
 #include "yaml_reader.hpp"
 
-/// The scene between the file and scene::Scene: sections read one by one, names not yet resolved, repeats not yet
-/// expanded.  Tests: tests/unit/read_test.cpp
+/// The scene on its way from the file to scene::Scene.  Each section is read by itself into drafts; then `repeat` is
+/// expanded into copies, and names become indices.  Tests: tests/unit/read_test.cpp
 namespace cablenet::scene {
 
 /// What a cable's end says, before it is known what bears the name.
 struct Reference {
-  enum class Kind { named, cable, net } kind = Kind::named;   ///< named: a point, or body.attachment
+  enum class Target { named, cable, net } target = Target::named;   ///< named: a point or BODY.ATTACHMENT
   std::string name;
-  double at = 0;               ///< along a cable [m]
-  std::array<int, 2> node{};   ///< of a net
-  Value value;                 ///< the whole reference
+  double at = 0;               ///< unstretched length from the start of the cable `name` [m]
+  std::array<int, 2> node{};   ///< of the net `name`
+  Value value;                 ///< the whole end, for messages
 };
 
+/// How a cable is repeated.
 struct Repeat {
   int count = 0;
-  double every = 0;                   ///< along the tapped cable [m]
+  double every = 0;                   ///< unstretched length of the tapped cable from one copy to the next [m]
   Vector3 offset = Vector3::Zero();   ///< of each copy to the one before [m]
   Value value;
 };
 
-/// A thing that cables end at and that the `repeat` of one of them copies.
+/// A point or a body as it was read.  The `repeat` of a cable that ends there makes copies of it.
 template <class T>
 struct Draft {
   T thing;
   Value value;
   int copies = 0;                     ///< 0: not repeated
   Vector3 offset = Vector3::Zero();   ///< of each copy to the one before [m]
-  std::string repeated_by = {};       ///< the cable
+  std::string repeated_by = {};       ///< the name of the cable that repeats it
 };
 using PointDraft = Draft<Point>;
 struct BodyDraft : Draft<Body> {
@@ -50,7 +51,7 @@ struct CableDraft {
   int copies() const { return repeat ? repeat->count : 1; }
 };
 
-/// What the values of the keys at the top may look like.
+/// The forms of the sections at the top of the file.
 Form environment_form();
 Form cable_types_form();
 Form points_form();
@@ -60,7 +61,7 @@ Form nets_form();
 Form time_form();
 Form output_form();
 
-/// Gravity, fluid and bed of the scene.
+/// Puts gravity, fluid and bed into the scene.
 void read_environment(const Value&, Scene&);
 Time read_time(const Value&);
 /// @pre the scene's time is read.
@@ -74,7 +75,7 @@ std::vector<Net> read_nets(const Value&, const Names& types, Names& nets);
 
 /// @throws InputError if the scene has more nodes than an unknown's number can count.
 void check_size(const std::vector<CableDraft>&, const std::vector<Net>&, const Value& top);
-/// Puts `repeat` of the cables on the points and bodies that they repeat.
+/// Tells the points and bodies at the ends of repeated cables how often they are copied.
 void mark_repeated(const std::vector<CableDraft>&, std::vector<PointDraft>&, std::vector<BodyDraft>&);
 std::vector<Point> expand_points(const std::vector<PointDraft>&, Names& points);
 std::vector<Body> expand_bodies(const std::vector<BodyDraft>&, Names& bodies);
@@ -83,14 +84,14 @@ void check_circles(const std::vector<CableDraft>&);
 /// @pre `scene` holds all but its cables.
 /// @throws InputError if a reference leads nowhere or past an end.
 std::vector<Cable> expand_cables(const std::vector<CableDraft>&, const Scene&, SceneNames&);
-/// What can be said only when all ends are known.
+/// Checks ends against each other.  @throws InputError if a cable has no length or a free point has no cable.
 void check_ends(const std::vector<CableDraft>&, const std::vector<PointDraft>&, const Scene&);
-/// What is allowed of water, and of things in it or out of it, but perhaps not meant.
+/// Notes on what is allowed of water and of things in it, or in a vacuum, but hardly meant.
 std::vector<std::string> water_notes(const Section& top, const std::vector<PointDraft>&, const std::vector<BodyDraft>&,
                                      const Scene&);
-/// To the scene's notes: what is allowed of bodies but perhaps not meant.  @pre the scene is expanded.
+/// Adds notes on what is allowed of bodies but hardly meant.  @pre the scene is expanded.
 void add_body_notes(const std::vector<BodyDraft>&, const std::vector<CableDraft>&, Scene&);
-/// To the scene's notes: what a scene without `time` makes no use of.
+/// Adds notes on what a scene without `time` makes no use of.
 void add_static_notes(const std::vector<PointDraft>&, const std::vector<BodyDraft>&, const std::vector<CableDraft>&,
                       Scene&);
 

@@ -66,7 +66,7 @@ Kind<Matrix3> inertia() {
   const NumberForm moment{"kg m2", any_number};
   const std::vector<NumberForm> three(3, moment), six(6, moment);
   return {either_form(inertia_expected,
-                      {row_form("[Ixx, Iyy, Izz]", three), row_form("[Ixx, Iyy, Izz, Ixy, Iyz, Izx]", six)}),
+                      {tuple_form("[Ixx, Iyy, Izz]", three), tuple_form("[Ixx, Iyy, Izz, Ixy, Iyz, Izx]", six)}),
           read_inertia, nullptr};
 }
 
@@ -95,7 +95,7 @@ const Table<OrientationKeys> orientation_table(
      {"pitch", angle(), standard, "The turn about the body's y axis.", &OrientationKeys::pitch},
      {"yaw", angle(), standard, "The turn about the world's z axis.", &OrientationKeys::yaw},
      {"quaternion",
-      Kind<Quaternion>{row_form("[w, x, y, z], four numbers", {part, part, part, part}), read_quaternion, nullptr},
+      Kind<Quaternion>{tuple_form("[w, x, y, z], four numbers", {part, part, part, part}), read_quaternion, nullptr},
       absent("roll, pitch and yaw say it"), "The attitude as a quaternion instead; it is scaled to length 1.",
       &OrientationKeys::quaternion}},
     Holds::any_keys, orientation_expected);

@@ -27,7 +27,7 @@ const Table<ReferenceKeys> reference_table(
       "The node, counted from the net's first corner along its first and second edge.", &ReferenceKeys::node}});
 
 Reference read_reference(const Value& value) {
-  if (value.node.IsScalar()) return {Reference::Kind::named, value.node.Scalar(), 0, {}, value};
+  if (value.node.IsScalar()) return {Reference::Target::named, value.node.Scalar(), 0, {}, value};
   if (!value.node.IsMap()) value.refuse(end_expected, "Write one of these.");
   ReferenceKeys keys;
   const Section section = read_rows(value, reference_table, keys);
@@ -35,8 +35,8 @@ Reference read_reference(const Value& value) {
   if (keys.cable.has_value() == keys.net.has_value() || is_mixed)
     value.refuse(end_expected, "Give either cable and at, or net and node.");
   section.require(keys.cable ? "at" : "node");
-  if (keys.cable) return {Reference::Kind::cable, *keys.cable, *keys.at, {}, value};
-  return {Reference::Kind::net, *keys.net, 0, *keys.node, value};
+  if (keys.cable) return {Reference::Target::cable, *keys.cable, *keys.at, {}, value};
+  return {Reference::Target::net, *keys.net, 0, *keys.node, value};
 }
 
 Kind<Reference> reference() {

@@ -43,7 +43,8 @@ std::vector<CurrentLayer> read_profile(const Value& value) {
 
 Kind<std::vector<CurrentLayer>> profile() {
   const NumberForm height{"m", any_number}, speed{"m/s", any_number};
-  return {list_form(profile_expected, row_form(layer_labels, {height, speed, speed, speed}), 1), read_profile, nullptr};
+  return {list_form(profile_expected, tuple_form(layer_labels, {height, speed, speed, speed}), 1), read_profile,
+          nullptr};
 }
 
 using Layers = std::vector<CurrentLayer>;

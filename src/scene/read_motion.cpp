@@ -43,14 +43,8 @@ Motion make_motion(const MotionKeys& keys, const Vector3& position, const Time& 
   if (keys.velocity) return Motion::uniform(position, *keys.velocity, time.start);
   if (keys.harmonic)
     return Motion::harmonic(position, keys.harmonic->amplitude, keys.harmonic->period, keys.harmonic->phase);
-  if (keys.waypoints) {
-    check_covered(*keys.law, *keys.waypoints, time);
-    return Motion::waypoints(keys.waypoints->times, keys.waypoints->vectors);
-  }
-  if (!keys.expression) return Motion::fixed(position);
-  const Motion motion = Motion::expression(position, keys.expression->texts);
-  check_finite(*keys.law, motion, time, "position, velocity or acceleration");
-  return motion;
+  if (keys.law) return make_law(keys, position, time, "position, velocity or acceleration");
+  return Motion::fixed(position);
 }
 
 }   // namespace cablenet::scene

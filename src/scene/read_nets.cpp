@@ -28,7 +28,7 @@ Corners read_corners(const Value& value) {
 
 Kind<Corners> corners() {
   const Form corner = vector("m").form;
-  return {{corners_expected, RowForm{{corner, corner, corner, corner}}}, read_corners, nullptr};
+  return {{corners_expected, TupleForm{{corner, corner, corner, corner}}}, read_corners, nullptr};
 }
 
 std::vector<Edge> read_edges(const Value& value) {

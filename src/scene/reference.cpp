@@ -21,38 +21,38 @@ std::string path_of(const std::string& section, const Key& key) {
 }
 
 /// A table and everywhere that its sections stand in a scene file.
-struct Place {
+struct Chapter {
   const KeyTable* table;
   std::vector<std::string> paths;
 };
 
-/// The places in the order in which a reader meets them.
-class Places {
+/// The chapters in the order in which a reader meets them.
+class Chapters {
 public:
-  explicit Places(const KeyTable& top) { add(top, ""); }
-  const std::vector<Place>& all() const { return places_; }
+  explicit Chapters(const KeyTable& top) { add(top, ""); }
+  const std::vector<Chapter>& all() const { return chapters_; }
 
 private:
   void add(const KeyTable& table, const std::string& path) {
-    const auto found =
-        std::find_if(places_.begin(), places_.end(), [&](const Place& place) { return place.table == &table; });
-    if (found != places_.end()) {
+    const auto found = std::find_if(chapters_.begin(), chapters_.end(),
+                                    [&](const Chapter& chapter) { return chapter.table == &table; });
+    if (found != chapters_.end()) {
       found->paths.push_back(path);
       return;
     }
-    places_.push_back({&table, {path}});
+    chapters_.push_back({&table, {path}});
     for (const Key& key : table.keys) add(key.form, path_of(path, key));
   }
 
   void add(const Form& form, const std::string& path) {
-    if (const auto* list = std::get_if<ListForm>(&form.shape)) add(list->item[0], path + "[i]");
-    if (const auto* map = std::get_if<MapForm>(&form.shape)) add(map->item[0], path + ".NAME");
-    if (const auto* section = std::get_if<SectionForm>(&form.shape)) add(*section->table, path);
-    if (const auto* either = std::get_if<EitherForm>(&form.shape))
+    if (const auto* list = std::get_if<ListForm>(&form.details)) add(list->item[0], path + "[i]");
+    if (const auto* map = std::get_if<MapForm>(&form.details)) add(map->item[0], path + ".NAME");
+    if (const auto* section = std::get_if<SectionForm>(&form.details)) add(*section->table, path);
+    if (const auto* either = std::get_if<EitherForm>(&form.details))
       for (const Form& one : either->forms) add(one, path);
   }
 
-  std::vector<Place> places_;
+  std::vector<Chapter> chapters_;
 };
 
 /// A bar would end the cell.
@@ -71,23 +71,23 @@ std::string if_absent(const KeyTable& table, const Key& key) {
   return key.standard.empty() ? key.absent : fmt::format("`{}`", key.standard);
 }
 
-std::string value_of(const Place& place, const Key& key) {
-  const bool is_section = std::holds_alternative<SectionForm>(key.form.shape);
-  return is_section ? fmt::format("a map: see `{}`", path_of(place.paths[0], key)) : key.form.expected;
+std::string value_of(const Chapter& chapter, const Key& key) {
+  const bool is_section = std::holds_alternative<SectionForm>(key.form.details);
+  return is_section ? fmt::format("a map: see `{}`", path_of(chapter.paths[0], key)) : key.form.expected;
 }
 
-std::string row(const Place& place, const Key& key) {
+std::string row(const Chapter& chapter, const Key& key) {
   const std::string water = key.needs_fluid ? " In a fluid only." : "";
-  return fmt::format("| `{}` | {} | {} | {}{} |\n", key.name, cell(value_of(place, key)),
-                     cell(if_absent(*place.table, key)), cell(key.sentence), water);
+  return fmt::format("| `{}` | {} | {} | {}{} |\n", key.name, cell(value_of(chapter, key)),
+                     cell(if_absent(*chapter.table, key)), cell(key.sentence), water);
 }
 
-std::string chapter(const Place& place) {
+std::string written(const Chapter& chapter) {
   std::string title;
-  for (const std::string& path : place.paths) title += fmt::format("{}`{}`", title.empty() ? "" : ", ", path);
+  for (const std::string& path : chapter.paths) title += fmt::format("{}`{}`", title.empty() ? "" : ", ", path);
   std::string text = fmt::format("\n## {}\n\n{}\n\n| key | value | if absent | what it is |\n|---|---|---|---|\n",
-                                 place.paths[0].empty() ? "The top level" : title, place.table->sentence);
-  for (const Key& key : place.table->keys) text += row(place, key);
+                                 chapter.paths[0].empty() ? "The top level" : title, chapter.table->sentence);
+  for (const Key& key : chapter.table->keys) text += row(chapter, key);
   return text;
 }
 
@@ -95,8 +95,8 @@ std::string chapter(const Place& place) {
 
 std::string key_reference() {
   std::string text = head;
-  const Places places(scene_keys());
-  for (const Place& place : places.all()) text += chapter(place);
+  const Chapters chapters(scene_keys());
+  for (const Chapter& chapter : chapters.all()) text += written(chapter);
   return text;
 }
 

@@ -6,12 +6,12 @@ namespace cablenet::scene {
 
 namespace {
 
-using Kind = Reference::Kind;
+using Target = Reference::Target;
 
 const Reference& repeated_end(const CableDraft& draft) {
-  const bool one_tap = (draft.from.kind == Kind::cable) != (draft.to.kind == Kind::cable);
-  const Reference& other = draft.from.kind == Kind::cable ? draft.to : draft.from;
-  if (!one_tap || other.kind != Kind::named)
+  const bool one_tap = (draft.from.target == Target::cable) != (draft.to.target == Target::cable);
+  const Reference& other = draft.from.target == Target::cable ? draft.to : draft.from;
+  if (!one_tap || other.target != Target::named)
     draft.repeat->value.fail(
         "this cable cannot be repeated; expected one end {cable: NAME, at: s} and one end at a "
         "point or a body's attachment. Change its ends or remove repeat.");
@@ -19,18 +19,19 @@ const Reference& repeated_end(const CableDraft& draft) {
 }
 
 template <class D>
-using Table = std::unordered_map<std::string, D*>;
+using DraftsByName = std::unordered_map<std::string, D*>;
 
 template <class D>
-Table<D> by_name(std::vector<D>& drafts) {
-  Table<D> table;
+DraftsByName<D> by_name(std::vector<D>& drafts) {
+  DraftsByName<D> table;
   for (D& draft : drafts) table[draft.thing.name] = &draft;
   return table;
 }
 
 /// A name that is not in the table is reported where ends are resolved.
 template <class D>
-void mark(const Table<D>& table, const std::string& name, const char* kind, const CableDraft& cable, const Value& end) {
+void mark(const DraftsByName<D>& table, const std::string& name, const char* kind, const CableDraft& cable,
+          const Value& end) {
   const auto found = table.find(name);
   if (found == table.end()) return;
   D& draft = *found->second;
@@ -70,8 +71,8 @@ auto expand(const std::vector<D>& drafts, Names& names) {
 
 void mark_repeated(const std::vector<CableDraft>& cables, std::vector<PointDraft>& points,
                    std::vector<BodyDraft>& bodies) {
-  const Table<PointDraft> point_table = by_name(points);
-  const Table<BodyDraft> body_table = by_name(bodies);
+  const DraftsByName<PointDraft> point_table = by_name(points);
+  const DraftsByName<BodyDraft> body_table = by_name(bodies);
   for (const CableDraft& cable : cables) {
     if (!cable.repeat) continue;
     const Reference& end = repeated_end(cable);

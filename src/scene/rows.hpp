@@ -7,7 +7,8 @@
 #include "kinds.hpp"
 
 /// A table of keys: one row says all about a key, and a section is read by its rows.
-/// To add a key, add a row to its section's table and a field for it to the row's target.
+/// To add a key, add a row to its section's table and a field for the row to fill.  Then give it a value in a scene of
+/// tests/cases/valid/, add the field to tests/support/scene_text.hpp and print src/scene/README.md anew.
 /// Tests: tests/unit/keys_test.cpp
 namespace cablenet::scene {
 
@@ -90,7 +91,7 @@ Section read_rows(const Value& map, const Table<T>& table, T& thing) {
   return section;
 }
 
-/// A section by itself.
+/// A section that needs nothing but its rows to be read.
 template <class T>
 Kind<T> section(const Table<T>& table) {
   const auto read = [&table](const Value& map) {

@@ -34,7 +34,7 @@ Json described(const ListForm& form) {
   return {{"type", "array"}, {"items", described(form.item[0])}, {"minItems", form.least}};
 }
 
-Json described(const RowForm& form) {
+Json described(const TupleForm& form) {
   Json items = Json::array();
   for (const Form& item : form.items) items.push_back(described(item));
   const std::size_t count = form.items.size();
@@ -62,7 +62,7 @@ Json described(const Key& key) {
   Json json = described(key.form);
   json["description"] = description(key);
   if (!key.standard.empty()) json["default"] = as_json(key.standard);
-  if (const auto* number = std::get_if<NumberForm>(&key.form.shape); number != nullptr && !number->unit.empty())
+  if (const auto* number = std::get_if<NumberForm>(&key.form.details); number != nullptr && !number->unit.empty())
     json["x-unit"] = number->unit;
   return json;
 }
@@ -86,7 +86,7 @@ Json described(const EitherForm& form) {
 }
 
 Json described(const Form& form) {
-  return std::visit([](const auto& shape) { return described(shape); }, form.shape);
+  return std::visit([](const auto& details) { return described(details); }, form.details);
 }
 
 }   // namespace

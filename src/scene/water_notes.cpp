@@ -24,7 +24,7 @@ bool acts(const YAML::Node& node) {
 
 /// The keys of the sections in a map from names.
 const std::vector<Key>& keys_in(const Form& map) {
-  return std::get<SectionForm>(std::get<MapForm>(map.shape).item[0].shape).table->keys;
+  return std::get<SectionForm>(std::get<MapForm>(map.details).item[0].details).table->keys;
 }
 
 /// The value of a key that the map has.

@@ -92,21 +92,21 @@ void check_name(const Named& named) {
 }
 
 YAML::Node read_document(const std::string& text, const std::string& file) {
-  Value whole{YAML::Node(), "", 1, &file};
+  Value where{YAML::Node(), "", 1, &file};
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(text);
     if (documents.empty()) return YAML::Node();
     if (documents.size() == 1) return documents[0];
-    whole.line = documents[1].Mark().line + 1;
+    where.line = documents[1].Mark().line + 1;
   } catch (const YAML::Exception& error) {
-    whole.line = std::max(error.mark.line, 0) + 1;
-    whole.fail(
+    where.line = std::max(error.mark.line, 0) + 1;
+    where.fail(
         fmt::format("the file is no valid YAML: {}. Look at this line and the one before it: indentation "
                     "(spaces, no tabs), brackets, quotes (names like \"branch[2]\" need them), the space after "
                     "a colon.",
                     error.msg));
   }
-  whole.fail("a second YAML document begins here; expected one scene per file. Remove the --- or split the file.");
+  where.fail("a second YAML document begins here; expected one scene per file. Remove the --- or split the file.");
 }
 
 }   // namespace

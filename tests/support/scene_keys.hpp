@@ -111,22 +111,22 @@ private:
 
   void add(const Form& form, const std::string& name, const std::vector<Found>& values) {
     std::vector<Found> inner;
-    if (const auto* section = std::get_if<scene::SectionForm>(&form.shape)) {
+    if (const auto* section = std::get_if<scene::SectionForm>(&form.details)) {
       for (const Found& value : values)
         if (value.node.IsMap()) inner.push_back(value);
       add(*section->table, name, inner);
     }
-    if (const auto* either = std::get_if<scene::EitherForm>(&form.shape))
+    if (const auto* either = std::get_if<scene::EitherForm>(&form.details))
       for (const Form& one : either->forms) add(one, name, values);
     for (const Found& value : values) {
-      if (std::holds_alternative<scene::MapForm>(form.shape))
+      if (std::holds_alternative<scene::MapForm>(form.details))
         for (const auto& pair : value.node) inner.push_back(inside(value, pair.first.as<std::string>(), pair.second));
-      if (std::holds_alternative<scene::ListForm>(form.shape))
+      if (std::holds_alternative<scene::ListForm>(form.details))
         for (std::size_t i = 0; i < value.node.size(); ++i)
           inner.push_back(inside(value, place_in_list(i), value.node[i]));
     }
-    if (const auto* map = std::get_if<scene::MapForm>(&form.shape)) add(map->item[0], name + ".*", inner);
-    if (const auto* list = std::get_if<scene::ListForm>(&form.shape)) add(list->item[0], name + "[*]", inner);
+    if (const auto* map = std::get_if<scene::MapForm>(&form.details)) add(map->item[0], name + ".*", inner);
+    if (const auto* list = std::get_if<scene::ListForm>(&form.details)) add(list->item[0], name + "[*]", inner);
   }
 
   std::vector<Known> known_;

@@ -61,12 +61,12 @@ void expect_refused(const YAML::Node& changed, const Path& path, const std::stri
 
 /// The form of a value among several: the first that its kind of node fits.
 const Form& fitting(const Form& form, const YAML::Node& node) {
-  const auto* either = std::get_if<EitherForm>(&form.shape);
+  const auto* either = std::get_if<EitherForm>(&form.details);
   if (either == nullptr) return form;
   for (const Form& one : either->forms) {
-    const bool is_map = std::holds_alternative<SectionForm>(one.shape);
-    const auto* row = std::get_if<RowForm>(&one.shape);
-    const bool is_list = std::holds_alternative<ListForm>(one.shape) || row != nullptr;
+    const bool is_map = std::holds_alternative<SectionForm>(one.details);
+    const auto* row = std::get_if<TupleForm>(&one.details);
+    const bool is_list = std::holds_alternative<ListForm>(one.details) || row != nullptr;
     const bool has_size = row == nullptr || row->items.size() == node.size();
     if (is_map == node.IsMap() && is_list == node.IsSequence() && has_size) return one;
   }
@@ -82,9 +82,9 @@ struct Leaf {
 /// The numbers in a value.
 void find_numbers(const Form& given, const YAML::Node& node, const Path& path, std::vector<Leaf>& leaves) {
   const Form& form = fitting(given, node);
-  if (const auto* number = std::get_if<NumberForm>(&form.shape)) leaves.push_back({path, *number, form.expected});
-  const auto* row = std::get_if<RowForm>(&form.shape);
-  const auto* list = std::get_if<ListForm>(&form.shape);
+  if (const auto* number = std::get_if<NumberForm>(&form.details)) leaves.push_back({path, *number, form.expected});
+  const auto* row = std::get_if<TupleForm>(&form.details);
+  const auto* list = std::get_if<ListForm>(&form.details);
   for (std::size_t i = 0; (row != nullptr || list != nullptr) && i < node.size(); ++i)
     find_numbers(row != nullptr ? row->items[i] : list->item[0], node[i], path / test::place_in_list(i), leaves);
 }
@@ -124,11 +124,11 @@ std::vector<YAML::Node> others(const Known& known, const Spot& spot) {
     if (all.size() > 1) files.push_back(moved(spot, {all.back()}, by));
   }
   if (all.empty()) files.clear();
-  if (std::holds_alternative<BooleanForm>(form.shape))
+  if (std::holds_alternative<BooleanForm>(form.details))
     files.push_back(test::with(spot, YAML::Node(node.as<bool>() ? "false" : "true")));
-  if (std::holds_alternative<TextForm>(form.shape))
+  if (std::holds_alternative<TextForm>(form.details))
     files.push_back(test::with(spot, YAML::Node(node.as<std::string>() + "+1")));
-  if (const auto* choice = std::get_if<ChoiceForm>(&form.shape))
+  if (const auto* choice = std::get_if<ChoiceForm>(&form.details))
     for (const std::string& name : choice->names) files.push_back(test::with(spot, YAML::Node(name)));
   if (node.IsSequence()) {
     YAML::Node shorter = YAML::Clone(node);
@@ -140,8 +140,8 @@ std::vector<YAML::Node> others(const Known& known, const Spot& spot) {
 }
 
 bool changes_the_scene(const Known& known) {
-  const bool is_whole_map = std::holds_alternative<SectionForm>(known.key->form.shape) ||
-                            std::holds_alternative<MapForm>(known.key->form.shape);
+  const bool is_whole_map = std::holds_alternative<SectionForm>(known.key->form.details) ||
+                            std::holds_alternative<MapForm>(known.key->form.details);
   for (const Spot& spot : known.spots) {
     const std::string scene = outcome(spot.file).scene;
     // The keys of a map are tried one by one; here it counts that the map as a whole does something.
@@ -170,7 +170,7 @@ TEST(Keys, EveryKeyIsDocumented) {
     EXPECT_FALSE(key.form.expected.empty()) << known.name;
     const bool is_said = key.is_required || known.table->takes_one || !key.standard.empty() || !key.absent.empty();
     EXPECT_TRUE(is_said) << known.name << ": what does its absence mean?";
-    const auto* number = std::get_if<NumberForm>(&key.form.shape);
+    const auto* number = std::get_if<NumberForm>(&key.form.details);
     if (number != nullptr && !number->is_whole) {
       EXPECT_EQ(number->unit.empty(), pure.count(known.name) > 0) << known.name << ": [" << number->unit << "]";
     }
@@ -222,10 +222,10 @@ TEST(Keys, NumbersAreFiniteAndNoWords) {
 TEST(Keys, ValuesOfAnotherFormAreRefused) {
   for (const Known& known : keys()) {
     const Spot& spot = known.spots.at(0);
-    const auto& shape = known.key->form.shape;
+    const auto& details = known.key->form.details;
     const bool is_end = known.name == "cables.*.from" || known.name == "cables.*.to";
-    const bool takes_words = std::holds_alternative<TextForm>(shape) || is_end;
-    const bool takes_lists = std::holds_alternative<ListForm>(shape) || known.name == "cables.*.shape";
+    const bool takes_words = std::holds_alternative<TextForm>(details) || is_end;
+    const bool takes_lists = std::holds_alternative<ListForm>(details) || known.name == "cables.*.shape";
     if (!takes_words)
       expect_refused(test::with(spot, YAML::Node("nonsense")), spot.path, "nonsense is not allowed; expected ");
     if (!takes_lists)

@@ -16,7 +16,7 @@ struct Attachment {
   Vector3 offset;   ///< from the centre of gravity, body axes [m]
 };
 
-/// How a body's attitude is described to the solver.
+/// Which unknowns describe a body's attitude to the solver: a quaternion, or roll, pitch and yaw.
 enum class Rotation { quaternion, euler };
 template <>
 inline constexpr std::array<Choice<Rotation>, 2> choices<Rotation>{

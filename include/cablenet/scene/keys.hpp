@@ -40,7 +40,7 @@ struct ListForm {
   std::size_t least = 0;
 };
 /// A list with a form of its own for each item, such as [t, x, y, z].
-struct RowForm {
+struct TupleForm {
   std::vector<Form> items;
 };
 /// A map from names of the user's choice to values that are alike.
@@ -59,8 +59,8 @@ struct EitherForm {
 /// What a value may look like in the file.
 struct Form {
   std::string expected;   ///< for messages and the reference: "a number > 0 [m]"
-  std::variant<NumberForm, BooleanForm, TextForm, ChoiceForm, ListForm, RowForm, MapForm, SectionForm, EitherForm>
-      shape;
+  std::variant<NumberForm, BooleanForm, TextForm, ChoiceForm, ListForm, TupleForm, MapForm, SectionForm, EitherForm>
+      details;
 };
 
 struct Key {

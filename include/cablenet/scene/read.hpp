@@ -3,12 +3,12 @@
 
 #include "cablenet/scene/scene.hpp"
 
-/// The scene file's reader: YAML text -> Scene.  Tests: tests/unit/read_test.cpp, tests/cases/broken/
+/// Reads scene files.  src/scene/README.md lists their keys.  Tests: tests/unit/read_test.cpp, tests/cases/broken/
 namespace cablenet::scene {
 
-/// The scene that `text` describes, validated as far as a file alone can be.
+/// The scene that `text` describes.  All that the file alone can tell to be wrong is refused.
 /// @param text  the YAML text   @param file  its name, for messages only
-/// @throws InputError naming file:line, key, value, what is allowed and what to do.
+/// @throws InputError with one line that names the file and line, the key, the value, what is allowed and what to do.
 Scene read_scene(const std::string& text, const std::string& file);
 
 }   // namespace cablenet::scene

@@ -13,8 +13,8 @@
 #include "cablenet/scene/motion.hpp"
 #include "cablenet/scene/time.hpp"
 
-/// What the user asked for, as plain data in SI units; `repeat` is expanded, names are resolved to indices.
-/// scene/read.hpp makes it from a file.
+/// What the user asked for, as plain data in SI units.  All copies that `repeat` asks for are listed, and things refer
+/// to each other by index.  scene/read.hpp makes a scene from a file.
 namespace cablenet::scene {
 
 struct CableType {

@@ -14,13 +14,13 @@ inline constexpr std::array<Choice<Scheme>, 3> choices<Scheme>{{{Scheme::energy_
                                                                 {Scheme::plain, "plain"}}};
 
 struct Time {
-  double start = 0;
-  double end = 0;
-  double step = 0;
+  double start = 0;   ///< [s]
+  double end = 0;     ///< [s]
+  double step = 0;    ///< of time; the first one where the step is adaptive [s]
   Scheme scheme = Scheme::energy_momentum;
   double spectral_radius = 1;        ///< meant for generalized_alpha and plain; 1 for energy_momentum
   double axial_dissipation = 0;      ///< xi of energy_momentum: 0 where the scene names the scheme, else 0.05
-  std::optional<double> tolerance;   ///< local error a step [m]: the step is adaptive
+  std::optional<double> tolerance;   ///< of an adaptive step: its local error of positions [m]; none: equal steps
 };
 
 enum class HistoryKind { point, cable, body };
@@ -31,7 +31,7 @@ struct HistoryItem {
 };
 
 struct Output {
-  double interval = 0;   ///< s between frames; 0: every step
+  double interval = 0;   ///< from one frame to the next [s]; 0: every step is a frame
   std::vector<HistoryItem> history;
   bool energy = false;
 };
