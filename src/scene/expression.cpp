@@ -85,11 +85,32 @@ std::size_t number_length(const std::string& text, std::size_t begin) {
   return static_cast<std::size_t>(result.ptr - first);
 }
 
+/// Finds a^b^c.  GiNaC 1.8.6 refuses it, 1.8.8 reads a^(b^c), other programs (a^b)^c; here it is always refused.
+class PowerChain {
+public:
+  /// @return whether c is the second power in a row
+  bool follows(char c) {
+    if (c == '(') after_power_.push_back(false);
+    if (c == ')' && after_power_.size() > 1) after_power_.pop_back();
+    const bool again = c == '^' && after_power_.back();
+    // A sign after ^ belongs to the exponent.
+    if (c == '^' || (!is_exponents_start_ && std::string_view("+-*/").find(c) != std::string_view::npos))
+      after_power_.back() = c == '^';
+    if (c != ' ' && c != '\t' && c != '\n') is_exponents_start_ = c == '^';
+    return again;
+  }
+
+private:
+  std::vector<bool> after_power_{false};   ///< per open parenthesis: the last operator is a power
+  bool is_exponents_start_ = false;
+};
+
 /// GiNaC's own parser also takes imaginary units, lists, comparisons and more, so names and signs are sifted before.
 void check_tokens(const std::string& text) {
   if (text.find_first_not_of(" \t\n") == std::string::npos) refuse(text, "it is empty");
   if (text.size() > longest_text) refuse(text, fmt::format("it is longer than {} characters", longest_text));
   int depth = 0;
+  PowerChain powers;
   for (std::size_t i = 0; i < text.size();) {
     std::size_t end = i + 1;
     if (is_letter(text[i])) {
@@ -101,6 +122,7 @@ void check_tokens(const std::string& text) {
     } else if (std::string_view("+-*/^() \t\n").find(text[i]) == std::string_view::npos) {
       refuse(text, fmt::format("the character {} means nothing here", text[i]));
     }
+    if (powers.follows(text[i])) refuse(text, "a^b^c needs parentheses, as in a^(b^c)");
     depth += text[i] == '(' ? 1 : (text[i] == ')' ? -1 : 0);
     if (depth > deepest_nesting) refuse(text, fmt::format("parentheses are nested deeper than {}", deepest_nesting));
     i = end;
@@ -171,7 +193,6 @@ std::string plain_words(const std::string& complaint) {
   if (complaint.find("expected EOF") != std::string::npos)
     return "an operator is missing or a parenthesis is out of place (2*t, not 2t)";
   if (complaint.find("unexpected token") != std::string::npos) return "a number, a name or a parenthesis is missing";
-  if (complaint.find("power should have") != std::string::npos) return "a^b^c needs parentheses, as in a^(b^c)";
   return complaint.substr(0, complaint.find('\n'));
 }
 

@@ -131,7 +131,8 @@ TEST(Motion, EveryFunctionOfAnExpressionIsConsistent) {
                            "step(t-0.5)*(t-0.5)^3",
                            "1/3*t^7",
                            "(1+t)^(-2/3)",
-                           "sin(cos(t))^2*t"}) {
+                           "sin(cos(t))^2*t",
+                           "(2^t)^2 + t^2*t^3 - 2^(t^2)/3^t"}) {
     SCOPED_TRACE(text);
     const Motion motion = written(text);
     for (double t : {0.7, 1.3}) expect_consistent(motion, t);
@@ -163,7 +164,8 @@ TEST(Motion, BadExpressionsAreRefusedWithTheReason) {
   expect_refused("", "it is empty");
   expect_refused("(t", "parentheses do not match");
   expect_refused("t == 1", "the character = means nothing");
-  expect_refused("2^3^t", "needs parentheses");
+  for (const char* text : {"2^3^t", "2^-3^t", "(2^t)^3^t", "sin(t)^2 ^ t", "2^(t)^2", "t*(1 + 2^3^t)"})
+    expect_refused(text, "needs parentheses");
   expect_refused("1/0", "division by zero");
   expect_refused("(-1)^0.5*t", "not a real number");
   expect_refused("step(t - 1)", "the position jumps at t = 1 s");
