@@ -8,6 +8,12 @@ import time
 from bench import ENVIRONMENT, arguments
 
 TOLERANCE = 1e-9      # of a quantity's scale: its largest value in the run
+# In `array` elements go slack and taut, and some steps are cut to dt = 0.02 s/16.  Newton's method ends within 8 times the
+# residual's rounding there, eps x (K + 3.8/dt^2 M)/alpha_f, with the largest coordinate x = 12.2 m, the elements' norms
+# K = 4e5 N/m and M = 2.4 kg, alpha_f = 1/1.7.  Two runs may thus differ by 2 x 8 x 2.2e-16 x 12.2 x 6.2e6 x 1.7 N in forces
+# and, over the tips' 1 kg, by as many m/s^2 in accelerations.  Which part of it is seen depends on the BLAS.
+RESIDUALS = {"array": 4.5e-7}
+FORCES = {"ax", "ay", "az", "fx", "fy", "fz", "tension_from", "tension_to"}
 LIMIT = 120           # s for one run
 
 TYPES = """
@@ -17,6 +23,22 @@ cable_types:
 """
 
 # Nothing lies in a plane: each quantity then has a scale of its own.
+ARRAY = TYPES + """
+points:
+  tow: {position: [0, 0, 0], motion: {expression: {x: "3*t + 0.1*sin(9*t)", y: "0.3*cos(5*t)", z: "0.2*sin(7*t)"}}}
+  tail: {position: [-12, 1, -2], mass: 0.5, velocity: [3, 0, 0]}
+  tip: {position: [-3, 0.5, -3], mass: 1, velocity: [3, 0, 0.5]}
+cables:
+  trunk: {type: rope, from: tow, to: tail, elements: 24}
+  branch:
+    type: TYPE
+    from: {cable: trunk, at: 2.9}
+    to: tip
+    elements: 4
+    repeat: {count: 4, every: 2.7, offset: [-2.7, 0.2, -0.4]}
+time: {end: 0.2, step: 2.0e-2, spectral_radius: 0.7}
+output: {interval: 2.0e-2, history: [tip, tow, tail, trunk, branch], energy: true}
+"""
 SCENES = {
     "chain": ((2, 3, 4, 7), TYPES + """
 points:
@@ -26,22 +48,8 @@ cables: {chain: {type: rope, from: top, to: tip, elements: 24, length: 5.6, shap
 time: {end: 0.4, step: 1.0e-2, scheme: energy_momentum}
 output: {interval: 2.0e-2, history: [tip, top, chain], energy: true}
 """),
-    "array": ((2, 3, 4, 7), TYPES + """
-points:
-  tow: {position: [0, 0, 0], motion: {expression: {x: "3*t + 0.1*sin(9*t)", y: "0.3*cos(5*t)", z: "0.2*sin(7*t)"}}}
-  tail: {position: [-12, 1, -2], mass: 0.5, velocity: [3, 0, 0]}
-  tip: {position: [-3, 0.5, -3], mass: 1, velocity: [3, 0, 0.5]}
-cables:
-  trunk: {type: rope, from: tow, to: tail, elements: 24}
-  branch:
-    type: thin
-    from: {cable: trunk, at: 2.9}
-    to: tip
-    elements: 4
-    repeat: {count: 4, every: 2.7, offset: [-2.7, 0.2, -0.4]}
-time: {end: 0.2, step: 2.0e-2, spectral_radius: 0.7}
-output: {interval: 2.0e-2, history: [tip, tow, tail, trunk, branch], energy: true}
-"""),
+    "array": ((2, 3, 4, 7), ARRAY.replace("TYPE", "thin")),
+    "taut_array": ((2, 3, 4, 7), ARRAY.replace("TYPE", "rope")),
     "two_cables": ((2, 3, 4, 7), TYPES + """
 points:
   a: {position: [0, 0, 0], motion: {harmonic: {amplitude: [0.1, 0.2, 0.3], period: 0.5, phase: 40}}}
@@ -89,7 +97,7 @@ SOLVERS = {
 
 def run(program, scene, folder, ranks, options=()):
     """@return the history's columns and rows"""
-    command = ["mpirun", "-n", str(ranks), "--oversubscribe"] if ranks > 1 else []
+    command = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
     done = subprocess.run([*command, program, "run", scene, "-o", folder, *options], env=ENVIRONMENT, text=True,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=LIMIT)
     if done.returncode != 0:
@@ -106,8 +114,9 @@ def scales(columns, rows):
     return [energy if name.startswith("energy.") else value for name, value in zip(columns, largest)]
 
 
-def compare(reference, other):
-    """@return the largest difference over its quantity's scale, and where it is"""
+def compare(reference, other, residuals=0):
+    """@return the largest difference over its quantity's scale, and where it is; of FORCES only what is beyond `residuals`
+    counts"""
     columns, rows = reference
     if other[0] != columns:
         raise Difference("other columns")
@@ -116,7 +125,10 @@ def compare(reference, other):
     worst = (0, "nowhere")
     for mine, theirs in zip(rows, other[1]):
         for name, scale, a, b in zip(columns, scales(columns, rows), mine, theirs):
-            difference = abs(a - b) / scale if scale > 0 else abs(b)
+            beyond = abs(a - b)
+            if name.split(".")[-1] in FORCES and beyond <= residuals:
+                beyond = 0
+            difference = beyond / scale if scale > 0 else beyond
             if not difference <= worst[0]:
                 worst = (difference, f"{name} at t = {mine[0]}")
     return worst
@@ -146,7 +158,7 @@ def main():
             try:
                 found = run(given.program, scene, folder / label.replace(" ", "_"), ranks, options)
                 reference = reference or found
-                worst, where = compare(reference, found)
+                worst, where = compare(reference, found, RESIDUALS.get(name, 0))
                 verdict = "" if worst <= TOLERANCE else f": more than {TOLERANCE}"
                 text = f"{len(found[1])} rows, differs by {worst:.1e} ({where}){verdict}"
             except (Difference, subprocess.TimeoutExpired) as problem:
