@@ -13,11 +13,6 @@
 namespace cablenet::network {
 namespace {
 
-template <class... Handlers>
-struct Overloaded : Handlers... {
-  using Handlers::operator()...;
-};
-
 /// Builds piece by piece; a tapped cable is laid before the cables that hang on it.
 class Builder {
 public:
@@ -160,15 +155,13 @@ SceneNode Builder::cable_node(std::size_t index, int k) {
 }
 
 SceneNode Builder::end_node(const scene::CableEnd& end) {
-  return std::visit(
-      Overloaded{[](const scene::PointEnd& point) { return SceneNode(point.point); },
-                 [&](const scene::NetEnd& net) { return net_node(net.net, net.node[0], net.node[1]); },
-                 [&](const scene::BodyEnd& body) { return attachment_nodes_[at(body.body)][at(body.attachment)]; },
-                 [&](const scene::TapEnd& tap) {
-                   lay_cable(at(tap.cable));
-                   return cable_node(at(tap.cable), node_at(arcs_[at(tap.cable)], tap.at));
-                 }},
-      end);
+  if (const auto* point = std::get_if<scene::PointEnd>(&end)) return SceneNode(point->point);
+  if (const auto* net = std::get_if<scene::NetEnd>(&end)) return net_node(net->net, net->node[0], net->node[1]);
+  if (const auto* body = std::get_if<scene::BodyEnd>(&end))
+    return attachment_nodes_[at(body->body)][at(body->attachment)];
+  const auto& tap = std::get<scene::TapEnd>(end);
+  lay_cable(at(tap.cable));
+  return cable_node(at(tap.cable), node_at(arcs_[at(tap.cable)], tap.at));
 }
 
 void Builder::lay_cable(std::size_t index) {

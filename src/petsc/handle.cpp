@@ -4,12 +4,11 @@
 
 namespace cablenet::petsc {
 
-void check(int code, std::source_location where) {
+void check(int code, const char* file, int line) {
   if (code == 0) return;
   const char* text = nullptr;
   PetscErrorMessage(static_cast<PetscErrorCode>(code), &text, nullptr);
-  throw Failure(fmt::format("PETSc error {} ({}) at {}:{}", code, text == nullptr ? "unknown" : text, where.file_name(),
-                            where.line()));
+  throw Failure(fmt::format("PETSc error {} ({}) at {}:{}", code, text == nullptr ? "unknown" : text, file, line));
 }
 
 }   // namespace cablenet::petsc

@@ -1,7 +1,6 @@
 #pragma once
 #include <petscsys.h>
 
-#include <source_location>
 #include <stdexcept>
 #include <utility>
 
@@ -22,7 +21,8 @@ struct Failure : std::runtime_error {
 };
 
 /// @throws Failure with PETSc's text and the caller's file:line if code is an error.
-void check(int code, std::source_location where = std::source_location::current());
+/// The built-ins are those of std::source_location, which clang 14 does not have.
+void check(int code, const char* file = __builtin_FILE(), int line = __builtin_LINE());
 
 /// Move-only owner of one PETSc object.
 template <class T, auto Destroy>
