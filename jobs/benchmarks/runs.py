@@ -128,7 +128,7 @@ class Laboratory:
         more = [*options]
         more += ["-ts_max_steps", steps] if steps else []
         more += ["-log_view", f":{log}:ascii_csv"] if events else []
-        launcher = ["mpirun", "-n", str(ranks), "--oversubscribe"] if ranks > 1 else []
+        launcher = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
         _, wall = self.execute([*launcher, *self.command(scene, *more)])
         results = self.folder / "results"
         report = yaml.safe_load((results / "run.yaml").read_text(encoding="utf-8"))

@@ -34,7 +34,7 @@ class Bench:
         self.folder = folder
 
     def __call__(self, *arguments, ranks=0):
-        launcher = ["mpirun", "-n", str(ranks), "--oversubscribe"] if ranks else []
+        launcher = ["mpirun", "-n", str(ranks)] if ranks else []
         return subprocess.run([*launcher, self.program, *arguments], cwd=self.folder, capture_output=True, text=True,
                               timeout=60, env=ENVIRONMENT, check=False)
 

@@ -67,7 +67,7 @@ class Verification:
         folder = self.scratch / str(self.runs)
         path = folder.with_suffix(".yaml")
         path.write_text(json.dumps(scene))   # JSON is YAML
-        launcher = ["mpirun", "-n", str(self.ranks), "--oversubscribe"] if self.ranks else []
+        launcher = ["mpirun", "-n", str(self.ranks)] if self.ranks else []
         command = [*launcher, self.program, "run", str(path), "-o", str(folder), *map(str, options)]
         started = time.monotonic()
         done = subprocess.run(command, cwd=self.scratch, capture_output=True, text=True)
