@@ -10,9 +10,8 @@ namespace cablenet::app {
 /// The scene's, with what the command line overrides.  A spectral radius asks for the scheme that has one.
 /// @throws InputError
 scene::Time chosen_time(scene::Time time);
+/// The scheme's, with what -cable_tangent and -cable_axial_dissipation override.  Collective.
 /// @throws InputError
-system::ForceRule force_rule(const scene::Time& time);
-/// "generalized_alpha, spectral radius 0.8".
-std::string scheme_name(const scene::Time& time, const system::ForceRule& rule);
+system::ForceRule chosen_force_rule(const scene::Time& time);
 
 }   // namespace cablenet::app

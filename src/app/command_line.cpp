@@ -8,6 +8,8 @@
 #include <filesystem>
 
 #include "cablenet/base/errors.hpp"
+#include "cablenet/solve/own_options.hpp"
+#include "cablenet/solve/relaxation.hpp"
 
 namespace cablenet::app {
 namespace {
@@ -53,6 +55,18 @@ Command command_of(const CLI::App& app, const CommandLine& line) {
   return name == "check" ? Command::check : Command::schema;
 }
 
+/// The program's own options beside PETSc's, for --help.
+std::string options_text() {
+  std::string text = "Options beside PETSc's own (those: cablenet run -help):\n";
+  for (const solve::OwnOption* option : solve::own_options())
+    text += fmt::format("  {}\n      {};\n      {}; default: {}\n", option->text.name, option->text.help,
+                        option->expected, option->fallback);
+  return text + fmt::format(
+                    "With {} before its name (-{}ts_max_steps 1000) an option reaches the solvers that let a\n"
+                    "network settle in time, statics' last resort.",
+                    solve::relaxation_prefix, solve::relaxation_prefix);
+}
+
 }   // namespace
 
 CommandLine parse_command_line(const std::vector<std::string>& given) {
@@ -69,7 +83,7 @@ CommandLine parse_command_line(const std::vector<std::string>& given) {
   CLI::Option* scene = run->add_option("SCENE", line.scene, "the scene, a YAML file");
   if (!wants_petsc_help) scene->required();
   run->add_option("-o", line.directory, "folder for the results; default: SCENE's name with .out, where you are");
-  run->footer("PETSc's own options: cablenet run -help");
+  run->footer(options_text());
   CLI::App* check = app.add_subcommand("check", "read and validate a scene, print its size, write nothing");
   check->add_option("SCENE", line.scene, "the scene, a YAML file")->required();
   CLI::App* schema = app.add_subcommand("schema", "print a JSON Schema of scene files, for editors");

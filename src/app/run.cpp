@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <petscsys.h>
-#include <petscts.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -16,9 +15,12 @@
 #include "cablenet/base/errors.hpp"
 #include "cablenet/base/floating_point.hpp"
 #include "cablenet/network/build.hpp"
+#include "cablenet/petsc/options.hpp"
 #include "cablenet/petsc/session.hpp"
 #include "cablenet/scene/read.hpp"
 #include "cablenet/scene/schema.hpp"
+#include "cablenet/solve/alpha_stepper.hpp"
+#include "cablenet/solve/own_options.hpp"
 
 namespace cablenet::app {
 namespace {
@@ -80,10 +82,8 @@ int check_scene(const CommandLine& line) {
 
 /// PETSc prints the help of what is set up from options.
 int print_solver_help() {
-  petsc::Handle<TS, TSDestroy> stepper;
-  petsc::check(TSCreate(PETSC_COMM_WORLD, stepper.out()));
-  petsc::check(TSSetType(stepper, TSALPHA2));
-  petsc::check(TSSetFromOptions(stepper));
+  solve::AlphaStepper::show_options(PETSC_COMM_WORLD);
+  solve::show_own_options(PETSC_COMM_WORLD);
   return 0;
 }
 

@@ -12,6 +12,8 @@
 #include "cablenet/output/frames.hpp"
 #include "cablenet/output/probes.hpp"
 #include "cablenet/petsc/solver_types.hpp"
+#include "cablenet/solve/relaxation.hpp"
+#include "cablenet/solve/scheme.hpp"
 #include "cablenet/solve/statics.hpp"
 #include "choices.hpp"
 
@@ -62,7 +64,7 @@ public:
       : scene_(scene),
         directory_(std::move(directory)),
         time_(chosen_time(scene.time)),
-        rule_(force_rule(time_)),
+        rule_(chosen_force_rule(time_)),
         network_(network::build_network(scene)),
         partition_(partition::make_partition(network_, PETSC_COMM_WORLD)) {
     MPI_Comm_rank(PETSC_COMM_WORLD, &rank_);
@@ -97,8 +99,8 @@ private:
   }
 
   void set_up_dynamics() {
-    dynamics_.emplace(*assembler_, time_, scene_.output.interval);
-    introduce(fmt::format("{}, {}", scheme_name(time_, rule_), dynamics_->linear_solver()));
+    dynamics_.emplace(*assembler_, time_, solve::Dynamics::Settings{scene_.output.interval});
+    introduce(fmt::format("{}, {}", solve::describe(time_, rule_), dynamics_->linear_solver()));
   }
 
   void open_output() {
@@ -165,7 +167,7 @@ private:
     });
     finish_output();
     report_.counts = dynamics_->counts();
-    report_.scheme = scheme_name(time_, rule_);
+    report_.scheme = solve::describe(time_, rule_);
     report_.linear_solver = dynamics_->linear_solver();
     if (rank_ == 0) progress.finish(report_.reached, report_.counts.steps, report_.counts.newton);
     if (verdict == solve::Verdict::failed)
@@ -249,9 +251,7 @@ private:
   std::string advice() const {
     if (is_singular_attitude()) return "Give the body rotation: quaternion, the default, which has no such attitude";
     if (failed_.left_domain) return "Try a smaller time.step";
-    return fmt::format("Try a smaller time.step or {}", time_.scheme == scene::Scheme::energy_momentum
-                                                            ? "some axial_damping"
-                                                            : "scheme: energy_momentum, or a smaller spectral_radius");
+    return fmt::format("Try a smaller time.step or {}", solve::row_of(time_.scheme).advice);
   }
 
   const scene::Scene& scene_;
@@ -282,7 +282,8 @@ private:
 }   // namespace
 
 int simulate(const scene::Scene& scene, const std::string& directory) {
-  petsc::check_solver_types();
+  petsc::check_solver_types(nullptr);
+  petsc::check_solver_types(solve::relaxation_prefix);
   return Simulation(scene, directory).run();
 }
 

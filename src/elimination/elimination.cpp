@@ -117,20 +117,20 @@ int Elimination::factor_run(int begin, int end, const Arrays& arrays, const std:
 }
 
 template <bool mixed>
-void Elimination::forward_run(int begin, int end, double* w, double* shifted) {
+void Elimination::forward_run(int begin, int end, const Joined<double>& x) {
   const int* first = plan_.first_later.data();
   const double* lower = values_.data() + plan_.lower_values + plan_.coupling(first[begin]);
   const int* later = plan_.later.data() + first[begin];
-  const double* own = w + unknown<mixed>(begin);
+  const double* own = x.eliminated + unknown<mixed>(begin);
   for (int k = begin; k < end; ++k, own += 3) {
     fetch(lower + 9 * ahead, 2);
     for (int i = first[k]; i < first[k + 1]; ++i, ++later, lower += 9)
-      subtract_product((*later < plan_.eliminated() ? w : shifted) + unknown<mixed>(*later), lower, own);
+      subtract_product(x.at(unknown<mixed>(*later)), lower, own);
   }
 }
 
 template <bool symmetric, bool mixed>
-void Elimination::backward_run(int begin, int end, double* w, const double* shifted) {
+void Elimination::backward_run(int begin, int end, double* w, const Joined<const double>& x) {
   const int* const first = plan_.first_later.data();
   const std::int64_t regions = symmetric ? plan_.lower_values : plan_.upper_values;
   const double* const coupling = values_.data() + regions + plan_.coupling(first[begin]);
@@ -143,8 +143,7 @@ void Elimination::backward_run(int begin, int end, double* w, const double* shif
     fetch(coupling + 9 * (first[k] - first[begin] - ahead), 2);
     if constexpr (symmetric) divide_left(own, pivot);
     for (std::ptrdiff_t i = first[k]; i < first[k + 1]; ++i) {
-      const int j = plan_.later[at(i)];
-      const double* const later = (j < plan_.eliminated() ? w : shifted) + unknown<mixed>(j);
+      const double* const later = x.at(unknown<mixed>(plan_.later[at(i)]));
       const double* const block = coupling + 9 * (i - first[begin]);
       if constexpr (symmetric)
         subtract_transposed_product(own, block, later);
@@ -160,26 +159,25 @@ std::ptrdiff_t Elimination::unknowns() const {
 }
 
 void Elimination::forward(double* w, double* kept) {
-  double* const shifted = kept - unknowns();
+  const Joined<double> x{w, kept, unknowns()};
   const auto run = [&](int begin, int end) {
-    plan_.uniform ? forward_run<false>(begin, end, w, shifted) : forward_run<true>(begin, end, w, shifted);
+    plan_.uniform ? forward_run<false>(begin, end, x) : forward_run<true>(begin, end, x);
     return true;
   };
   const auto step = [&](const Large& large) {
-    forward_large(large, w, shifted);
+    forward_large(large, x);
     return true;
   };
   visit_forward(run, step);
 }
 
 void Elimination::backward(double* w, const double* kept) {
-  const double* const shifted = kept - unknowns();
+  const Joined<const double> x{w, kept, unknowns()};
   const auto run = [&](int begin, int end) {
-    if (!plan_.uniform) return backward_run<false, true>(begin, end, w, shifted);
-    plan_.symmetric ? backward_run<true, false>(begin, end, w, shifted)
-                    : backward_run<false, false>(begin, end, w, shifted);
+    if (!plan_.uniform) return backward_run<false, true>(begin, end, w, x);
+    plan_.symmetric ? backward_run<true, false>(begin, end, w, x) : backward_run<false, false>(begin, end, w, x);
   };
-  visit_backward(run, [&](const Large& large) { backward_large(large, w, shifted); });
+  visit_backward(run, [&](const Large& large) { backward_large(large, w, x); });
 }
 
 }   // namespace cablenet::elimination

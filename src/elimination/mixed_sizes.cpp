@@ -97,21 +97,21 @@ int Elimination::factor_large(const Large& step, const Arrays& arrays, const std
   return negative;
 }
 
-void Elimination::forward_large(const Large& step, double* w, double* shifted) {
-  const double* const mine = w + begin_[at(step.block)];
+void Elimination::forward_large(const Large& step, const Joined<double>& x) {
+  const double* const mine = x.eliminated + begin_[at(step.block)];
   with_size(plan_.size[at(step.block)], [&](auto own) {
     visit_later(step.block, [&](double*, double* lower, int j) {
-      double* const to = (j < plan_.eliminated() ? w : shifted) + begin_[at(j)];
+      double* const to = x.at(begin_[at(j)]);
       with_size(plan_.size[at(j)], [&](auto size) { subtract_product(to, lower, mine, size, own); });
     });
   });
 }
 
-void Elimination::backward_large(const Large& step, double* w, const double* shifted) {
+void Elimination::backward_large(const Large& step, double* w, const Joined<const double>& x) {
   double* const mine = w + begin_[at(step.block)];
   with_size(plan_.size[at(step.block)], [&](auto own) {
     visit_later(step.block, [&](double* upper, double*, int j) {
-      const double* const from = (j < plan_.eliminated() ? w : shifted) + begin_[at(j)];
+      const double* const from = x.at(begin_[at(j)]);
       with_size(plan_.size[at(j)], [&](auto size) { subtract_product(mine, upper, from, own, size); });
     });
     solve_pivot(mine, values_.data() + plan_.pivot(step.block), origins_.data() + step.origins, own);

@@ -21,4 +21,11 @@ std::int64_t Network::unknowns() const {
   return count;
 }
 
+double Network::extent() const {
+  if (position.empty()) return 0;
+  Eigen::AlignedBox3d box;
+  for (const Vector3& point : position) box.extend(point);
+  return box.diagonal().norm();
+}
+
 }   // namespace cablenet::network

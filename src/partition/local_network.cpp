@@ -19,6 +19,7 @@ public:
 
   LocalNetwork extract() {
     here_.blocks = partition_.blocks;
+    here_.extent = network_.extent();
     add_owned();
     find_elements();
     find_links();

@@ -4,12 +4,6 @@
 
 namespace cablenet::petsc {
 
-bool has_option(const char* name) {
-  PetscBool found = PETSC_FALSE;
-  check(PetscOptionsHasName(nullptr, nullptr, name, &found));
-  return found == PETSC_TRUE;
-}
-
 bool is_known_symmetric(Mat matrix) {
   PetscBool known = PETSC_FALSE, flag = PETSC_FALSE;
   check(MatIsSymmetricKnown(matrix, &known, &flag));

@@ -1,6 +1,5 @@
 #include "cablenet/petsc/session.hpp"
 
-#include <fmt/format.h>
 #include <petscsys.h>
 
 #include <cstdlib>
@@ -24,25 +23,6 @@ Session::Session(const std::string& program, const std::vector<std::string>& opt
   check(PetscInitialize(&count, &arguments, nullptr, nullptr));
 }
 
-Session::~Session() {
-  // The program reports unused options in its own words.
-  PetscOptionsClearValue(nullptr, "-options_left");
-  PetscOptionsSetValue(nullptr, "-options_left", "no");
-  PetscFinalize();
-}
-
-std::vector<std::string> unused_options() {
-  PetscInt count = 0;
-  char** names = nullptr;
-  char** values = nullptr;
-  check(PetscOptionsLeftGet(nullptr, &count, &names, &values));
-  std::vector<std::string> unused;
-  for (PetscInt i = 0; i < count; ++i) {
-    const std::string value = values[i] == nullptr ? "" : values[i];
-    unused.push_back(fmt::format("-{}{}{}", names[i], value.empty() ? "" : " ", value));
-  }
-  check(PetscOptionsLeftRestore(nullptr, &count, &names, &values));
-  return unused;
-}
+Session::~Session() { PetscFinalize(); }
 
 }   // namespace cablenet::petsc

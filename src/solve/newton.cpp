@@ -1,144 +1,247 @@
+#include "cablenet/solve/newton.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <limits>
 
-#include "cablenet/petsc/object_state.hpp"
-#include "cablenet/solve/dynamics.hpp"
+#include "cablenet/base/errors.hpp"
+#include "cablenet/petsc/options.hpp"
+#include "failed_part.hpp"
 
-/// What TSALPHA2 and its SNES call back.
 namespace cablenet::solve {
 namespace {
 
 using petsc::check;
 
-/// TSALPHA2's estimate of the first acceleration doubled it before PETSc 3.22.
-constexpr double start_factor = PETSC_VERSION_LT(3, 22, 0) ? 0.5 : 1.0;
+/// Newton's tolerance over the forces at the start.
+constexpr double relative_force_tolerance = 1e-12;
+
+constexpr PetscInt most_iterations = 25;
+
+/// PETSc's word for: the tangent is not to be computed.
+constexpr PetscInt never = -1;
+
+/// Options of SNES, without "-" and "snes_", that leave it to this class when a tangent is computed.  With any other
+/// one SNES computes it as it likes.
+constexpr std::array harmless_options{"atol",
+                                      "rtol",
+                                      "stol",
+                                      "max_it",
+                                      "max_funcs",
+                                      "max_fail",
+                                      "divergence_tolerance",
+                                      "error_if_not_converged",
+                                      "type",
+                                      "converged_reason"};
+constexpr std::array harmless_beginnings{"monitor", "view", "linesearch"};
+
+const char* prefix_of(SNES snes) {
+  const char* prefix = nullptr;
+  check(SNESGetOptionsPrefix(snes, &prefix));
+  return prefix == nullptr ? "" : prefix;
+}
+
+bool is_harmless(const std::string& option) {
+  const auto begins = [&](const char* beginning) { return option.starts_with(beginning); };
+  return std::find(harmless_options.begin(), harmless_options.end(), option) != harmless_options.end() ||
+         std::any_of(harmless_beginnings.begin(), harmless_beginnings.end(), begins);
+}
+
+bool is_of_type(PetscObject object, const char* type) {
+  PetscBool matches = PETSC_FALSE;
+  check(PetscObjectTypeCompare(object, type, &matches));
+  return matches == PETSC_TRUE;
+}
 
 }   // namespace
 
-AlphaStep read_alpha_step(TS ts) {
-  PetscReal alpha_m = 0, alpha_f = 0, gamma = 0, beta = 0, dt = 0;
-  check(TSAlpha2GetParams(ts, &alpha_m, &alpha_f, &gamma, &beta));
-  check(TSGetTimeStep(ts, &dt));
-  return {alpha_m, alpha_f, gamma, beta, dt};
+Newton::Newton(system::Assembler& assembler)
+    : assembler_(assembler), scales_(assembler.force_scales()), tangent_(assembler.make_tangent()) {}
+
+void Newton::configure(SNES snes) {
+  snes_ = snes;
+  SNESLineSearch search = nullptr;
+  KSP ksp = nullptr;
+  check(SNESGetLineSearch(snes, &search));
+  check(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
+  // A good first guess makes relative tests unreachable, and Newton's first correction may pass through a much larger
+  // residual (a turned stiff element is a stretched one), so the divergence test is off.
+  check(SNESSetTolerances(snes, relative_force_tolerance * scales_.load, 0, 0, most_iterations, petsc::unlimited));
+  check(SNESSetDivergenceTolerance(snes, petsc::unlimited));
+  check(SNESSetConvergenceTest(snes, converged, this, nullptr));
+  check(SNESGetKSP(snes, &ksp));
+  linear_ = LinearSolver(ksp, assembler_.network(), tangent_.matrix());
 }
 
-system::TangentRequest Dynamics::tangent_request() { return {tangent_, {1, alpha_.shift_v(), alpha_.shift_a()}}; }
+void Newton::adopt_options() {
+  const char* const prefix = prefix_of(snes_);
+  user_line_search_ = petsc::has_option("-snes_linesearch_type", prefix) || petsc::has_option("-snes_type", prefix);
+  makes_tangents_ = makes_tangents(prefix);
+  reuse_ = TangentReuse(makes_tangents_ && linear_.factors_are_dear());
+  // Other line searches evaluate residuals elsewhere while they use the tangent.
+  combines_ = makes_tangents_ && reuse_.computes_always() && has_basic_line_search();
+  if (makes_tangents_) check(SNESSetLagJacobian(snes_, never));
+}
 
-/// A retry searches the line as well; the next step is cheap again.
-void Dynamics::choose_line_search(bool retry) {
+bool Newton::makes_tangents(const char* prefix) const {
+  if (!is_of_type(reinterpret_cast<PetscObject>(snes_), SNESNEWTONLS)) return false;
+  const std::string beginning = std::string(prefix) + "snes_", nested = std::string(prefix) + "npc_";
+  const std::vector<std::string> given = petsc::given_options();
+  return std::all_of(given.begin(), given.end(), [&](const std::string& name) {
+    if (name.starts_with(nested)) return false;
+    return !name.starts_with(beginning) || is_harmless(name.substr(beginning.size()));
+  });
+}
+
+bool Newton::has_basic_line_search() const {
+  SNESLineSearch search = nullptr;
+  check(SNESGetLineSearch(snes_, &search));
+  return is_of_type(reinterpret_cast<PetscObject>(search), SNESLINESEARCHBASIC);
+}
+
+void Newton::choose_line_search(bool searches) {
   if (user_line_search_) return;
   SNESLineSearch search = nullptr;
   check(SNESGetLineSearch(snes_, &search));
-  check(SNESLineSearchSetType(search, retry ? SNESLINESEARCHBT : SNESLINESEARCHBASIC));
+  check(SNESLineSearchSetType(search, searches ? SNESLINESEARCHBT : SNESLINESEARCHBASIC));
 }
 
-PetscErrorCode Dynamics::residual(TS, PetscReal, Vec x, Vec v, Vec a, Vec r, void* self) noexcept {
-  PetscFunctionBeginUser;
-  auto& run = *static_cast<Dynamics*>(self);
-  if (run.alpha_.is_start()) {
-    PetscCall(VecWAXPY(r, -start_factor, run.start_acceleration_, a));
-    PetscFunctionReturn(petsc::success);
-  }
-  // Newton asks for the tangent after each residual but the last: both in one pass where another is expected.
-  const bool wants_tangent = run.combines_ && run.attempts_ <= 1 && run.evaluations_++ < run.expected_newton_;
-  const system::TangentRequest request = run.tangent_request();
-  if (wants_tangent) run.tangent_at_ = petsc::state_of(x);
-  if (!run.assembler_.residual(run.stage(), x, v, a, r, wants_tangent ? &request : nullptr)) {
-    run.outside_domain_ = run.assembler_.coincident_element();
-    run.outside_body_ = run.assembler_.outside_body();
-    // PETSc's own flag for this stays on one rank, and its line searches then leave the others waiting; a norm does
-    // not.
-    PetscInt count = 0;
-    PetscScalar* values = nullptr;
-    PetscCall(VecGetLocalSize(r, &count));
-    PetscCall(VecGetArrayWrite(r, &values));
-    std::fill_n(values, count, std::numeric_limits<double>::infinity());
-    PetscCall(VecRestoreArrayWrite(r, &values));
-  }
-  PetscFunctionReturn(petsc::success);
+void Newton::solve_acceleration(double t, Vec x, Vec v, Vec a) {
+  const system::Vector force = assembler_.make_vector();
+  KSP ksp = nullptr;
+  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+  assembler_.force(t, x, v, force);
+  assembler_.mass_matrix(t, x, v, tangent_);
+  tangent_.publish();
+  check(SNESGetKSP(snes_, &ksp));
+  check(KSPSetOperators(ksp, tangent_.matrix(), tangent_.matrix()));
+  check(KSPSolve(ksp, force, a));
+  check(KSPGetConvergedReason(ksp, &reason));
+  if (reason < 0)
+    throw SolverError(
+        fmt::format("the first acceleration could not be solved for: the linear solver stopped with {}; "
+                    "try it without -ksp_type and -pc_type options",
+                    KSPConvergedReasons[reason]));
 }
 
-PetscErrorCode Dynamics::jacobian(TS, PetscReal, Vec x, Vec v, Vec a, PetscReal shift_v, PetscReal shift_a, Mat J,
-                                  Mat P, void* self) noexcept {
-  PetscFunctionBeginUser;
-  auto& run = *static_cast<Dynamics*>(self);
-  run.reuse_.note_computed();
-  if (run.alpha_.is_start()) {
-    run.tangent_.set_identity(shift_a);
-  } else {
-    if (petsc::state_of(x) != run.tangent_at_)
-      run.assembler_.tangent(run.stage(), x, v, a, {run.tangent_, {1, shift_v, shift_a}});
-    run.tangent_.publish();
-  }
-  run.tangent_at_ = {};
-  if (J != P) {
-    PetscCall(MatAssemblyBegin(J, MAT_FINAL_ASSEMBLY));
-    PetscCall(MatAssemblyEnd(J, MAT_FINAL_ASSEMBLY));
-  }
-  PetscFunctionReturn(petsc::success);
+void Newton::begin_step(double t, Vec x, bool measures) {
+  t_ = t;
+  PetscReal largest = largest_coordinate_;
+  if (measures) check(VecNorm(x, NORM_INFINITY, &largest));
+  // Sines and cosines of small angles are rounded as those of large ones.
+  largest_coordinate_ = assembler_.network().blocks.uniform() ? largest : std::max<double>(largest, 1);
 }
 
-/// x + dt v + dt^2/2 a; the stepper's own vectors stay at the step's start until it is accepted.
-PetscErrorCode Dynamics::predict(SNES, Vec x, void* self) noexcept {
-  PetscFunctionBeginUser;
-  auto& run = *static_cast<Dynamics*>(self);
-  run.alpha_ = read_alpha_step(run.stepper_);
-  run.evaluations_ = 0;
-  run.tangent_at_ = {};
-  const double dt = run.alpha_.dt;
-  run.reuse_.begin_solve(run.alpha_.is_start() ? -dt : dt, run.attempts_ > 1);
-  if (run.alpha_.is_start()) PetscFunctionReturn(petsc::success);
-  PetscCall(VecWAXPY(x, dt, run.v_, run.x_));
-  PetscCall(VecAXPY(x, dt * dt / 2, run.a_));
-  PetscFunctionReturn(petsc::success);
+void Newton::begin_attempt(bool is_retry) {
+  outside_element_ = outside_body_ = -1;
+  if (is_retry != is_retry_) choose_line_search(is_retry);
+  is_retry_ = is_retry;
 }
 
-bool Dynamics::is_at_rounding(PetscInt iteration, double norm) {
-  const double noise = scales_.rounding(furthest_, alpha_.shift_a()) / alpha_.alpha_f;
+void Newton::begin_solve(const AlphaStep& step, const StepStart& start, Vec guess) {
+  step_ = step;
+  evaluations_ = 0;
+  tangent_at_ = {};
+  reuse_.begin_solve(step.is_start() ? -step.dt : step.dt, is_retry_);
+  if (step.is_start()) return;
+  check(VecWAXPY(guess, step.dt, start.v, start.x));
+  check(VecAXPY(guess, step.dt * step.dt / 2, start.a));
+}
+
+void Newton::residual(Vec x, Vec v, Vec a, Vec r) {
+  x_ = x;
+  v_ = v;
+  a_ = a;
+  // Newton's method needs the tangent after each residual but the last: one pass makes both where another correction
+  // is expected.
+  const bool wants_tangent = combines_ && !is_retry_ && evaluations_++ < expected_iterations_;
+  const system::TangentRequest request = tangent_request();
+  if (wants_tangent) tangent_at_ = petsc::state_of(x);
+  if (assembler_.residual(stage(), x, v, a, r, wants_tangent ? &request : nullptr)) return;
+  outside_element_ = assembler_.coincident_element();
+  outside_body_ = assembler_.outside_body();
+  // PETSc's own flag for this stays on one rank, and its line searches then leave the others waiting; a norm does not.
+  PetscInt count = 0;
+  PetscScalar* values = nullptr;
+  check(VecGetLocalSize(r, &count));
+  check(VecGetArrayWrite(r, &values));
+  std::fill_n(values, count, std::numeric_limits<double>::infinity());
+  check(VecRestoreArrayWrite(r, &values));
+}
+
+void Newton::tangent() {
+  reuse_.note_computed();
+  if (step_.is_start()) {
+    tangent_.set_identity(step_.shift_a());
+    return;
+  }
+  if (petsc::state_of(x_) != tangent_at_) assembler_.tangent(stage(), x_, v_, a_, tangent_request());
+  tangent_.publish();
+  tangent_at_ = {};
+}
+
+bool Newton::is_at_rounding(PetscInt iteration, double norm) {
+  const double noise = scales_.rounding(largest_coordinate_, step_.shift_a()) / step_.alpha_f;
   // A careful search cannot go below rounding, and would call that a failure.
-  const bool is_retry = attempts_ > 1 || (user_line_search_ && iteration > 0);
+  const bool careful = is_retry_ || (user_line_search_ && iteration > 0);
   const bool settled =
-      convergence_.is_at_rounding(static_cast<int>(iteration), norm, noise, is_retry, reuse_.was_kept());
+      convergence_.is_at_rounding(static_cast<int>(iteration), norm, noise, careful, reuse_.was_kept());
   if (iteration > 0) reuse_.note_correction(static_cast<int>(iteration), convergence_.contraction());
   return settled;
 }
 
-/// PETSc's default test, and the one above: a relative test is of no use with a good first guess.
-PetscErrorCode Dynamics::converged(SNES snes, PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm,
-                                   SNESConvergedReason* reason, void* self) noexcept {
+/// PETSc's default test, and rounding: a relative test is of no use with a good first guess.
+SNESConvergedReason Newton::test(PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm) {
+  SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
+  check(SNESConvergedDefault(snes_, iteration, xnorm, snorm, fnorm, &reason, nullptr));
+  const bool linear_and_solved = step_.is_start() && iteration >= 1;
+  const bool settled = !step_.is_start() && is_at_rounding(iteration, fnorm);
+  if (reason == SNES_CONVERGED_ITERATING && (settled || linear_and_solved)) reason = SNES_CONVERGED_FNORM_ABS;
+  return reason;
+}
+
+PetscErrorCode Newton::converged(SNES, PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm,
+                                 SNESConvergedReason* reason, void* self) noexcept {
   PetscFunctionBeginUser;
-  auto& run = *static_cast<Dynamics*>(self);
-  PetscCall(SNESConvergedDefault(snes, iteration, xnorm, snorm, fnorm, reason, nullptr));
-  const bool linear_and_solved = run.alpha_.is_start() && iteration >= 1;
-  const bool settled = !run.alpha_.is_start() && run.is_at_rounding(iteration, fnorm);
-  if (*reason == SNES_CONVERGED_ITERATING && (linear_and_solved || settled)) *reason = SNES_CONVERGED_FNORM_ABS;
+  auto& newton = *static_cast<Newton*>(self);
+  *reason = newton.test(iteration, xnorm, snorm, fnorm);
+  const bool goes_on = *reason == SNES_CONVERGED_ITERATING;
+  if (goes_on && newton.makes_tangents_ && newton.reuse_.wants_new()) newton.tangent();
   PetscFunctionReturn(petsc::success);
 }
 
-PetscErrorCode Dynamics::before_stage(TS ts, PetscReal) noexcept {
-  PetscFunctionBeginUser;
-  Dynamics* run = nullptr;
-  PetscCall(TSGetApplicationContext(ts, &run));
-  run->outside_domain_ = run->outside_body_ = -1;
-  if (run->control_) run->control_->begin_attempt();
-  if (!read_alpha_step(ts).is_start() && run->attempts_++ == 1) run->choose_line_search(true);
-  PetscFunctionReturn(petsc::success);
+bool Newton::has_converged() const {
+  SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
+  check(SNESGetConvergedReason(snes_, &reason));
+  return reason > 0;
 }
 
-/// PETSc asks after each of its stages that Newton's method solved.
-PetscErrorCode Dynamics::check_error(TSAdapt, TS ts, PetscReal, Vec, PetscBool* accept) noexcept {
-  PetscFunctionBeginUser;
-  Dynamics* run = nullptr;
-  PetscCall(TSGetApplicationContext(ts, &run));
-  if (run->alpha_.is_start()) PetscFunctionReturn(petsc::success);
-  Vec end = nullptr;
-  PetscCall(SNESGetSolution(run->snes_, &end));
-  const StepStart start{run->x_, run->v_, run->a_};
-  if (run->control_->accepts(run->alpha_, run->assembler_.network(), start, end)) PetscFunctionReturn(petsc::success);
-  *accept = PETSC_FALSE;
-  // Newton's method did well, so the next attempt need not be careful.
-  if (run->attempts_ == 1) run->attempts_ = 0;
-  PetscFunctionReturn(petsc::success);
+std::string Newton::explain_failure(double dt) {
+  SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
+  check(SNESGetConvergedReason(snes_, &reason));
+  std::string text =
+      fmt::format("Newton's method failed ({}) with steps down to {:.3g} s", SNESConvergedReasons[reason], dt);
+  const std::optional<PivotReport> pivots = linear_.pivots();
+  if (!pivots) return text;
+  singular_node_ = pivots->singular_node;
+  if (singular_node_.exists()) text += "; the tangent is singular there";
+  if (pivots->negative > 0) text += fmt::format("; the tangent has {} negative pivots", pivots->negative);
+  return text;
+}
+
+FailedPart Newton::failed_part(int known_body) {
+  Vec r = nullptr;
+  check(SNESGetFunction(snes_, &r, nullptr, nullptr));
+  return worst_part(assembler_, r, {singular_node_, outside_element_, known_body >= 0 ? known_body : outside_body_});
+}
+
+/// Not the tangent: the stepper restarts, and the solves of its start ask for new ones.
+void Newton::archive(Archive& archive) {
+  archive.item("newton.expected_iterations", expected_iterations_);
+  archive.item("newton.largest_coordinate", largest_coordinate_);
+  convergence_.archive(archive);
 }
 
 }   // namespace cablenet::solve

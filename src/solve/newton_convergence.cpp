@@ -2,8 +2,8 @@
 
 namespace cablenet::solve {
 
-/// Newton's error falls quadratically, f1 = c f0^2, so c tells how much of a residual that is down to rounding is still
-/// error; with a kept tangent it falls linearly.
+/// With new tangents the error falls quadratically, f1 = c f0^2.  With a kept tangent it falls linearly.  So c and the
+/// linear rate, which earlier corrections show, tell how much of a residual that is down to rounding is still error.
 bool NewtonConvergence::is_at_rounding(int iteration, double norm, double noise, bool is_retry, bool same_tangent) {
   const double previous = previous_norm_;
   previous_norm_ = norm;
@@ -16,6 +16,12 @@ bool NewtonConvergence::is_at_rounding(int iteration, double norm, double noise,
   // The careful line search of a retry cannot go below rounding at all, and would call that a failure.
   const bool stuck = norm > 0.25 * previous;
   return (stuck || is_retry) && norm <= (same_tangent ? 1 : 8) * noise;
+}
+
+void NewtonConvergence::archive(Archive& archive) {
+  archive.item("newton.previous_norm", previous_norm_);
+  archive.item("newton.rate", rate_);
+  archive.item("newton.curvature", curvature_);
 }
 
 }   // namespace cablenet::solve

@@ -6,7 +6,8 @@
 namespace cablenet::solve {
 namespace {
 
-constexpr double rounding = 1e-9;   // of a step: what accumulated rounding of times may amount to
+/// What the rounding of times may add up to, over a step.
+constexpr double rounding = 1e-9;
 
 /// A step that grows at once fails at once again.
 constexpr int steps_before_growth = 4;
@@ -55,6 +56,19 @@ void Schedule::set_limit(double wanted) {
   if (wanted == limit_) return;
   limit_ = wanted;
   plan();
+}
+
+void Schedule::archive(Archive& archive) {
+  archive.item("schedule.time", t_);
+  archive.item("schedule.limit", limit_);
+  archive.item("schedule.grows", grows_);
+  archive.item("schedule.good", good_);
+  archive.item("schedule.outputs", outputs_);
+  archive.item("schedule.at_output", at_output_);
+  archive.item("schedule.from", from_);
+  archive.item("schedule.step", h_);
+  archive.item("schedule.done", done_);
+  archive.item("schedule.total", total_);
 }
 
 }   // namespace cablenet::solve

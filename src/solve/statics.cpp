@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cablenet/petsc/queries.hpp"
+#include "cablenet/solve/own_options.hpp"
 #include "cablenet/solve/relaxation.hpp"
 #include "failed_part.hpp"
 
@@ -40,12 +40,12 @@ constexpr StringStage string_stages[] = {{1, 0.5, 4}, {3, 0.25, 20}, {9, 0.1, 20
 /// Share of a step below which the next is to be made in a shorter pseudo-time.
 constexpr double short_step = 0.15;
 
-/// The first time to settle, over that of a fall through the network's size; how often it is doubled.
+/// The first time to settle, over that of a fall through the network's extent; how often it is doubled.
 constexpr double settling_time = 10, standard_gravity = 9.80665;
 constexpr int longer_times = 5;
 constexpr int most_unknowns_of_nets = 5000;
 
-/// Of the network's size.
+/// How far an equilibrium may be from the drawn shape and still pass as near it, over the network's extent.
 constexpr double near = 1e-3;
 
 constexpr double first_shift = 0.01, largest_shift = 1e6, shift_growth = 10;   // [1/s], [1/s], 1
@@ -72,16 +72,15 @@ Statics::Statics(system::Assembler& assembler, double t, const Vector3& velocity
       is_in_flow_(forces_.is_in_flow()),
       scales_(assembler.force_scales()),
       tangent_(assembler.make_tangent()),
-      monitors_(petsc::has_option("-cable_statics_monitor")) {
+      monitors_(petsc::flag_option(assembler.communicator(), nullptr, statics_monitor_option.text)) {
   for (auto* vector : {&x_, &drawn_, &r_, &step_, &trial_}) *vector = assembler_.make_vector();
   assembler_.fill_initial(drawn_, r_);
   for (const Vector3& position : assembler_.network().position)
-    furthest_drawn_ = std::max(furthest_drawn_, position.lpNorm<Eigen::Infinity>());
-  MPI_Allreduce(MPI_IN_PLACE, &furthest_drawn_, 1, MPI_DOUBLE, MPI_MAX, assembler_.communicator());
+    largest_drawn_coordinate_ = std::max(largest_drawn_coordinate_, position.lpNorm<Eigen::Infinity>());
+  MPI_Allreduce(MPI_IN_PLACE, &largest_drawn_coordinate_, 1, MPI_DOUBLE, MPI_MAX, assembler_.communicator());
   check(VecCopy(drawn_, x_));
   check(KSPCreate(assembler_.communicator(), ksp_.out()));
-  linear_ = configure_linear_solver(ksp_, assembler_.network(), tangent_.matrix());
-  check(KSPSetOperators(ksp_, tangent_.matrix(), tangent_.matrix()));
+  linear_ = LinearSolver(ksp_, assembler_.network(), tangent_.matrix());
 }
 
 void Statics::measure_loads() {
@@ -114,7 +113,7 @@ bool Statics::is_near_drawn() {
   PetscReal moved = 0;
   check(VecWAXPY(trial_, -1, drawn_, x_));
   check(VecNorm(trial_, NORM_INFINITY, &moved));
-  return moved <= near * furthest_drawn_;
+  return moved <= near * assembler_.network().extent;
 }
 
 /// Newton's method on the cables as they are.
@@ -152,9 +151,9 @@ bool Statics::settle_as_they_are(int iterations) {
 
 /// As the last resort, lets the network settle; large nets would take many minutes, without a word.
 bool Statics::go_in_time() {
-  if (linear_.factors_are_dear && assembler_.network().all_unknowns() > most_unknowns_of_nets) return false;
-  const double size = std::max(furthest_drawn_, std::numeric_limits<double>::min());
-  double duration = settling_time * std::sqrt(size / standard_gravity);
+  if (linear_.factors_are_dear() && assembler_.network().all_unknowns() > most_unknowns_of_nets) return false;
+  const double extent = std::max(assembler_.network().extent, std::numeric_limits<double>::min());
+  double duration = settling_time * std::sqrt(extent / standard_gravity);
   check(VecCopy(drawn_, x_));
   for (int i = 0; i < longer_times; ++i, duration *= 2) {
     if (!relax(assembler_, t_, velocity_, duration, x_)) return false;
@@ -174,7 +173,7 @@ StaticRule Statics::ropes() const { return {StaticRule::Kind::ropes, 0, 0, least
 double Statics::reference() const { return load_ > 0 ? load_ : scales_.load; }
 
 bool Statics::is_final(double now, double previous) const {
-  const double noise = scales_.rounding(furthest_, 0);
+  const double noise = scales_.rounding(largest_coordinate_, 0);
   if (now <= wanted * reference()) return true;
   return now > 0.5 * previous && (now <= enough * reference() || now <= rounding_margin * noise);
 }
@@ -185,8 +184,8 @@ bool Statics::settle(StaticRule rule, const Goal& goal) {
   double previous = infinite;
   if (rule.kind != StaticRule::Kind::ropes || rule.string_tension > 0) forces_.keep(x_);
   for (int i = 0;; ++i) {
-    check(VecNorm(x_, NORM_INFINITY, &furthest_));
-    furthest_ = std::max(furthest_, furthest_drawn_);
+    check(VecNorm(x_, NORM_INFINITY, &largest_coordinate_));
+    largest_coordinate_ = std::max(largest_coordinate_, largest_drawn_coordinate_);
     steadiness_ = std::min(1.0, previous / (rough * reference()));
     rule.least_tension = steadiness_ * least;
     const double now = evaluate(rule, x_, true);
@@ -233,12 +232,9 @@ bool Statics::factor_and_solve() {
   check(KSPGetConvergedReason(ksp_, &reason));
   negative_pivots_ = 0;
   // With drag the tangent is unsymmetric, and pivots tell nothing of stability.
-  if (linear_.elimination && !is_in_flow_) negative_pivots_ = linear_.elimination->pivots().negative;
-  if (reason < 0 && !linear_.elimination) {
-    // PETSc would not try to factor another matrix after some failures.
-    check(KSPReset(ksp_));
-    check(KSPSetOperators(ksp_, tangent_.matrix(), tangent_.matrix()));
-  }
+  const std::optional<PivotReport> pivots = is_in_flow_ ? std::nullopt : linear_.pivots();
+  if (pivots) negative_pivots_ = pivots->negative;
+  if (reason < 0) linear_.recover();
   return reason >= 0 && negative_pivots_ == 0 && std::isfinite(norm(step_));
 }
 
@@ -279,7 +275,7 @@ bool Statics::conclude(bool converged) {
 
 FailedPart Statics::failed_part() {
   KnownFailure known;
-  if (linear_.elimination) known.singular_node = linear_.elimination->pivots().singular_node;
+  if (const std::optional<PivotReport> pivots = linear_.pivots()) known.singular_node = pivots->singular_node;
   return worst_part(assembler_, r_, known);
 }
 

@@ -3,19 +3,14 @@
 #include <cmath>
 #include <utility>
 
-#include "cablenet/petsc/handle.hpp"
-#include "cablenet/petsc/queries.hpp"
-
 namespace cablenet::solve {
 namespace {
 
-using petsc::check;
-
-/// A tangent is kept if its first correction brings the residual down to this, and so did the one before it or all of
-/// the last solve: Newton is then near its solution,
+/// A correction by a new tangent serves if it brings the residual down to this part: Newton's method is then near its
+/// solution.  A new tangent is kept after two such corrections in a row, or after one if the last solve had only such.
 constexpr double good = 0.02;
 
-/// and for as long as further ones bring it down to this.
+/// A correction by a kept tangent serves if it brings the residual down to this part.
 constexpr double worth = 0.2;
 
 /// Iterations that a solve by kept tangents may take.
@@ -24,22 +19,7 @@ constexpr int patience = 10;
 /// Steps that differ by rounding share a tangent.
 constexpr double same_key = 1e-6;
 
-/// PETSc's word for: compute it at the next chance, then never again.
-constexpr PetscInt once = -2;
-
 }   // namespace
-
-TangentReuse::TangentReuse(SNES snes, bool worthwhile) : snes_(snes) {
-  is_active_ =
-      worthwhile && !petsc::has_option("-snes_lag_jacobian") && !petsc::has_option("-snes_lag_jacobian_persists");
-  PetscInt lag = 1;
-  check(SNESGetLagJacobian(snes_, &lag));
-  computes_always_ = lag == 1 && !is_active_;
-  if (!is_active_) return;
-  refresh();
-}
-
-void TangentReuse::refresh() { check(SNESSetLagJacobian(snes_, once)); }
 
 void TangentReuse::begin_solve(double key, bool careful) {
   const bool same = std::abs(key - key_) <= same_key * key_ && !careful;
@@ -48,7 +28,12 @@ void TangentReuse::begin_solve(double key, bool careful) {
   is_careful_ = careful;
   key_ = key;
   good_in_row_ = 0;
-  if (is_active_ && !carries_over) refresh();
+  if (!carries_over) wants_new_ = true;
+}
+
+void TangentReuse::note_computed() {
+  is_new_ = true;
+  wants_new_ = !keeps_;
 }
 
 void TangentReuse::note_correction(int iteration, double contraction) {
@@ -58,7 +43,7 @@ void TangentReuse::note_correction(int iteration, double contraction) {
   all = all && served;
   good_in_row_ = served ? good_in_row_ + 1 : 0;
   const bool keep = served && (kept || is_trusted_ || good_in_row_ >= 2);
-  if (is_active_ && !keep) refresh();
+  if (!keep) wants_new_ = true;
 }
 
 }   // namespace cablenet::solve

@@ -12,31 +12,19 @@ namespace {
 
 class TangentReuse : public testing::Test {
 protected:
-  TangentReuse() { petsc::check(SNESCreate(PETSC_COMM_WORLD, snes_.out())); }
-
-  /// What SNES does before each correction: -2 asks for a new tangent once, -1 for none.
-  bool computes(solve::TangentReuse& reuse) {
-    PetscInt lag = 0;
-    petsc::check(SNESGetLagJacobian(snes_, &lag));
-    if (lag == -1) return false;
-    if (lag == -2) petsc::check(SNESSetLagJacobian(snes_, -1));
-    reuse.note_computed();
-    return true;
-  }
   /// Which corrections of a solve used new tangents.
-  std::vector<bool> solve(solve::TangentReuse& reuse, double key, const std::vector<double>& contractions,
-                          bool careful = false) {
+  static std::vector<bool> solve(solve::TangentReuse& reuse, double key, const std::vector<double>& contractions,
+                                 bool careful = false) {
     std::vector<bool> fresh;
     reuse.begin_solve(key, careful);
     for (std::size_t i = 0; i < contractions.size(); ++i) {
-      fresh.push_back(computes(reuse));
+      fresh.push_back(reuse.wants_new());
+      if (fresh.back()) reuse.note_computed();
       EXPECT_EQ(reuse.was_kept(), !fresh.back());
       reuse.note_correction(static_cast<int>(i) + 1, contractions[i]);
     }
     return fresh;
   }
-
-  petsc::Handle<SNES, SNESDestroy> snes_;
 };
 
 using Fresh = std::vector<bool>;
@@ -44,7 +32,7 @@ using Fresh = std::vector<bool>;
 }   // namespace
 
 TEST_F(TangentReuse, KeepsWhatServes) {
-  solve::TangentReuse reuse(snes_, true);
+  solve::TangentReuse reuse(true);
   EXPECT_FALSE(reuse.computes_always());
   EXPECT_EQ(solve(reuse, 0.1, {1e-3, 1e-3, 0.1, 0.1}), (Fresh{true, true, false, false}))
       << "after two good corrections";
@@ -53,7 +41,7 @@ TEST_F(TangentReuse, KeepsWhatServes) {
 }
 
 TEST_F(TangentReuse, RefreshesWhatDoesNot) {
-  solve::TangentReuse reuse(snes_, true);
+  solve::TangentReuse reuse(true);
   EXPECT_EQ(solve(reuse, 0.1, {1e-3, 0.1, 1e-3, 1e-3, 0.5, 1e-3}), (Fresh{true, true, true, true, false, true}));
   EXPECT_EQ(solve(reuse, 0.1, {1e-3, 1e-3, 0.1}), (Fresh{true, true, false})) << "after a step with slow corrections";
   EXPECT_EQ(solve(reuse, 0.1, {0.5, 1e-3, 0.1}), (Fresh{false, true, false}))
@@ -65,22 +53,16 @@ TEST_F(TangentReuse, RefreshesWhatDoesNot) {
   EXPECT_EQ(solve(reuse, 0.05, std::vector<double>(13, 0.01)).at(12), true) << "a solve without end";
 }
 
-TEST_F(TangentReuse, LeavesTheUsersLagAndCheapFactorsAlone) {
-  EXPECT_TRUE(solve::TangentReuse(snes_, false).computes_always());
-  const Option option("-snes_lag_jacobian", "3");
-  petsc::check(SNESSetFromOptions(snes_));
-  solve::TangentReuse reuse(snes_, true);
-  EXPECT_FALSE(reuse.computes_always());
-  reuse.begin_solve(0.1, true);
-  reuse.note_correction(1, 10);
-  PetscInt lag = 0;
-  petsc::check(SNESGetLagJacobian(snes_, &lag));
-  EXPECT_EQ(lag, 3);
+TEST_F(TangentReuse, KeepsNothingWhereFactorsAreCheap) {
+  solve::TangentReuse reuse(false);
+  EXPECT_TRUE(reuse.computes_always());
+  EXPECT_EQ(solve(reuse, 0.1, {1e-3, 1e-3, 1e-3}), (Fresh{true, true, true}));
+  EXPECT_EQ(solve(reuse, 0.1, {1e-3}), (Fresh{true}));
 }
 
 namespace {
 
-constexpr double noise = 1e-9;
+constexpr double of_rounding = 1e-9;
 
 /// The verdict on the last of these residuals.
 bool ends(const std::vector<double>& norms, bool kept, bool is_retry = false) {
@@ -88,7 +70,7 @@ bool ends(const std::vector<double>& norms, bool kept, bool is_retry = false) {
   bool verdict = false;
   for (std::size_t i = 0; i < norms.size(); ++i) {
     EXPECT_FALSE(verdict) << "before " << norms[i];
-    verdict = convergence.is_at_rounding(static_cast<int>(i), norms[i], noise, is_retry, kept && i > 1);
+    verdict = convergence.is_at_rounding(static_cast<int>(i), norms[i], of_rounding, is_retry, kept && i > 1);
   }
   return verdict;
 }
@@ -101,6 +83,21 @@ TEST(NewtonConvergence, EndsWhereItsErrorIsBelowRounding) {
   EXPECT_FALSE(ends({1, 1e-2, 1e-3, 4e-10}, true)) << "linear: an error of 1e-4 is left";
   EXPECT_TRUE(ends({1, 1e-2, 1e-4, 1e-6, 1e-8, 4e-10, 4e-12}, true));
   EXPECT_FALSE(ends({1e-10}, false)) << "a guess is corrected at least once";
+}
+
+TEST(NewtonConvergence, WhatItLearntIsSavedAndLoaded) {
+  solve::NewtonConvergence learnt, loaded, knows_nothing;
+  learnt.is_at_rounding(0, 1, of_rounding, false, false);
+  learnt.is_at_rounding(1, 1e-4, of_rounding, false, false);
+  Archive saved;
+  learnt.archive(saved);
+  Archive archive(saved.entries());
+  loaded.archive(archive);
+  for (auto* convergence : {&learnt, &loaded, &knows_nothing})
+    EXPECT_FALSE(convergence->is_at_rounding(0, 1e-4, of_rounding, false, false));
+  EXPECT_TRUE(learnt.is_at_rounding(1, 4e-10, of_rounding, false, false));
+  EXPECT_TRUE(loaded.is_at_rounding(1, 4e-10, of_rounding, false, false));
+  EXPECT_FALSE(knows_nothing.is_at_rounding(1, 4e-10, of_rounding, false, false));
 }
 
 TEST(NewtonConvergence, EndsWhereNothingIsGained) {

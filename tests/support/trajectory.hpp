@@ -16,7 +16,7 @@ public:
       : Trajectory(network_of(text), time, interval, communicator) {}
   Trajectory(const network::Network& network, const scene::Time& time, double interval, MPI_Comm communicator)
       : system_(network, {time.scheme, time.axial_dissipation, elements::Tangent::exact}, communicator),
-        dynamics_(system_.assembler, time, interval) {
+        dynamics_(system_.assembler, time, {interval}) {
     verdict = dynamics_.run({[this](const solve::Instant& instant) { observe(instant); },
                              [this](double t, double dt, const solve::Counts&) { note(t, dt); }});
   }

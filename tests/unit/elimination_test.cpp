@@ -90,9 +90,13 @@ Eigen::VectorXd solve(const System& s, bool symmetric, const Eigen::VectorXd& b)
       if (elimination.plan().symmetric && i != j) kept.block(j, i, columns, rows) += update.transpose();
     }
     w = b;
-    elimination.forward(w.data(), w.data() + first);
-    if (count > 0) w.tail(count) = kept.partialPivLu().solve(w.tail(count)).eval();
-    elimination.backward(w.data(), w.data() + first);
+    // The kept values stand elsewhere, or nowhere.
+    Eigen::VectorXd elsewhere = w.tail(count);
+    double* const values = count > 0 ? elsewhere.data() : nullptr;
+    elimination.forward(w.data(), values);
+    if (count > 0) elsewhere = kept.partialPivLu().solve(elsewhere).eval();
+    elimination.backward(w.data(), values);
+    w.tail(count) = elsewhere;
   }
   return w;
 }

@@ -65,6 +65,7 @@ public:
     return Key(size() - 1);
   }
   void resize(int size, const Value& value = Value()) { values_.resize(at(size), value); }
+  bool operator==(const Table&) const = default;
   int size() const { return static_cast<int>(values_.size()); }
   bool empty() const { return values_.empty(); }
   auto begin() { return values_.begin(); }

@@ -60,6 +60,17 @@ private:
   struct Large {
     int block, origins;
   };
+  /// A vector over all blocks.  Its first `count` values are those of the eliminated blocks and stand apart from the
+  /// kept ones', which may be none.
+  template <class Value>
+  struct Joined {
+    Value* eliminated;
+    Value* kept;
+    std::ptrdiff_t count;
+    Value* at(std::ptrdiff_t unknown) const {
+      return unknown < count ? eliminated + unknown : kept + (unknown - count);
+    }
+  };
 
   void add_source(BlockSource source);
   void prepare_mixed();
@@ -74,11 +85,10 @@ private:
   /// @returns the first block whose pivot is singular, or `end`
   template <bool symmetric>
   int factor_run(int begin, int end, const Arrays& arrays, const std::int64_t*& target, int& negative);
-  /// @param shifted  the kept blocks' unknowns, counted from the first of the eliminated ones
   template <bool mixed>
-  void forward_run(int begin, int end, double* w, double* shifted);
+  void forward_run(int begin, int end, const Joined<double>& x);
   template <bool symmetric, bool mixed>
-  void backward_run(int begin, int end, double* w, const double* shifted);
+  void backward_run(int begin, int end, double* w, const Joined<const double>& x);
   template <bool mixed>
   std::ptrdiff_t unknown(int block) const {
     return mixed ? begin_[at(block)] : 3 * std::ptrdiff_t{block};
@@ -89,8 +99,8 @@ private:
   int factor_large(const Large& step, const Arrays& arrays, const std::int64_t*& target);
   template <class Own>
   int factor_step(const Large& step, Own own, const Arrays& arrays, const std::int64_t*& target);
-  void forward_large(const Large& step, double* w, double* shifted);
-  void backward_large(const Large& step, double* w, const double* shifted);
+  void forward_large(const Large& step, const Joined<double>& x);
+  void backward_large(const Large& step, double* w, const Joined<const double>& x);
   /// visit(block (k, j), block (j, k), j) for each later neighbour j
   template <class Visit>
   void visit_later(int k, Visit&& visit);

@@ -87,6 +87,8 @@ struct Network {
 
   /// Of all free nodes and bodies.
   std::int64_t unknowns() const;
+  /// The diagonal of the smallest box, with sides along the axes, that holds all nodes as drawn.  [m]
+  double extent() const;
   /// "cable `trunk`, element 3 of 24": for messages.
   std::string element_name(int element) const;
 };

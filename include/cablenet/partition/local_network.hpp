@@ -80,6 +80,7 @@ struct LocalNetwork {
   network::Surroundings surroundings;
   std::vector<network::WetPoint<LocalNode>> wet_points;   ///< at nodes of this rank, or that its bodies carry
   double gravity = 0;                                     ///< [m/s^2] along -z
+  double extent = 0;   ///< of the whole network as drawn, on all ranks alike [m]
   Table<LocalNode, Vector3> position;                     ///< at the start [m]
   Table<LocalNode, Vector3> velocity;                     ///< at the start [m/s]
 

@@ -15,7 +15,4 @@ public:
   Session& operator=(const Session&) = delete;
 };
 
-/// Options of the user's that nothing has asked for, as "-name value".  Not collective.
-std::vector<std::string> unused_options();
-
 }   // namespace cablenet::petsc

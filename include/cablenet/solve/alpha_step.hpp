@@ -1,21 +1,27 @@
 #pragma once
-#include <petscts.h>
 
 namespace cablenet::solve {
 
-/// The generalised-alpha method's parameters and the step [s], as TSALPHA2 has them now.
-struct AlphaStep {
-  double alpha_m, alpha_f, gamma, beta, dt;
+/// The generalised-alpha method's weights.  In a step from (x0, v0, a0) to (x1, v1, a1) over dt
+///   x1 = x0 + dt v0 + dt^2 ((1/2 - beta) a0 + beta a1),  v1 = v0 + dt ((1 - gamma) a0 + gamma a1)
+/// and the equations of motion hold at the stage x0 + alpha_f (x1 - x0), v0 + alpha_f (v1 - v0), a0 + alpha_m (a1 -
+/// a0). Source: Chung & Hulbert, J. Appl. Mech. 60 (1993) 371, whose alphas are 1 minus these.
+struct AlphaWeights {
+  double alpha_m, alpha_f, gamma, beta;
 
-  /// TSALPHA2 estimates its first acceleration with parameters of their own.
+  /// PETSc's TSALPHA2 estimates its first acceleration with weights of their own.
   bool is_start() const { return alpha_m == 1 && alpha_f == 1 && gamma == 1 && beta == 0.5; }
-  /// At spectral radius 1 TSALPHA2's acceleration alternates about the truth.
+  /// At spectral radius 1 the method's acceleration alternates about the true one from step to step.
   bool alternates() const { return alpha_m == 0.5 && alpha_f == 0.5; }
-  /// How v and a follow x at the stage [1/s, 1/s^2].
+};
+
+/// The weights and the length of a step.
+struct AlphaStep : AlphaWeights {
+  double dt;   ///< [s]
+
+  /// How v and a at the stage follow x there [1/s, 1/s^2].
   double shift_v() const { return gamma / (beta * dt); }
   double shift_a() const { return alpha_m / (alpha_f * beta * dt * dt); }
 };
-
-AlphaStep read_alpha_step(TS ts);
 
 }   // namespace cablenet::solve

@@ -1,95 +1,69 @@
 #pragma once
-#include <petscts.h>
-
+#include <limits>
 #include <optional>
 #include <string>
 
-#include "cablenet/scene/scene.hpp"
-#include "cablenet/solve/alpha_step.hpp"
-#include "cablenet/solve/defaults.hpp"
-#include "cablenet/solve/newton_convergence.hpp"
+#include "cablenet/scene/time.hpp"
+#include "cablenet/solve/alpha_stepper.hpp"
+#include "cablenet/solve/newton.hpp"
 #include "cablenet/solve/observers.hpp"
 #include "cablenet/solve/schedule.hpp"
 #include "cablenet/solve/step_control.hpp"
-#include "cablenet/solve/tangent_reuse.hpp"
-#include "cablenet/system/assembler.hpp"
 
-/// A run through time with PETSc's TSALPHA2.  Tests: tests/parallel/dynamics_test.cpp, tests/verification
+/// A run through time: a schedule, adaptive control, observers and the explanation of failures around a time stepper
+/// (alpha_stepper.hpp) and Newton's method (newton.hpp).
+/// Tests: tests/parallel/dynamics_test.cpp, resume_test.cpp, tests/verification
 namespace cablenet::solve {
-
-using TimeStepper = petsc::Handle<TS, TSDestroy>;
 
 /// All member functions are collective.
 class Dynamics {
 public:
-  /// Reads the options database (-ts_*, -snes_*, -ksp_*, -pc_*), all of them with a prefix where one is given.
-  Dynamics(system::Assembler& assembler, const scene::Time& time, double output_interval, const char* prefix = nullptr);
+  struct Settings {
+    double output_interval = 0;                          ///< [s]; 0: every step
+    const char* prefix = nullptr;                        ///< of all options
+    long most_steps = std::numeric_limits<int>::max();   ///< where -ts_max_steps is not given
+  };
 
+  /// Reads the options database (-ts_*, -snes_*, -ksp_*, -pc_*, -mat_mumps_*, -cable_elimination_limit).
+  /// @throws InputError for a value that is not allowed
+  Dynamics(system::Assembler& assembler, const scene::Time& time, const Settings& settings);
+
+  /// Goes from the start, or from what was loaded, to the end.
   Verdict run(const Observers& observers);
 
   const Counts& counts() const { return counts_; }
-  std::string linear_solver() const;
-  /// Why the last attempt failed, e.g. "Newton's method did not converge (DIVERGED_MAX_IT)".
+  std::string linear_solver() const { return newton_.linear_solver(); }
+  /// Why the last attempt failed, e.g. "Newton's method failed (DIVERGED_MAX_IT) with steps down to 1e-5 s".
   const std::string& failure() const { return failure_; }
   /// Where (on any rank) the failed attempt's residual was worst or undefined.
-  FailedPart failed_part();
+  FailedPart failed_part() { return newton_.failed_part(outside_body_); }
+
+  /// Saves or loads t, x, v, a and all else that the further path depends on, but for what the assembler keeps.  To be
+  /// called between steps: before run(), or by an observer of steps.  Saving changes the path by rounding: this run
+  /// goes on like one that is made anew and loads.  On the same number of ranks both are equal bit for bit.
+  /// @throws InputError if what is loaded does not fit
+  void archive(Archive& archive);
 
 private:
-  void create_stepper(const char* prefix);
-  void configure_solvers();
-  void read_limits();
-  bool follows_residuals_by_tangents() const;
-  void solve_initial_acceleration();
+  void start(const Observers& observers);
   bool step(double dt);
-  void accept(double t, double taken, bool retried);
-  void update_acceleration(double dt);
-  system::TangentRequest tangent_request();
-  bool is_at_rounding(PetscInt iteration, double norm);
-  system::Stage stage() const { return {schedule_.time(), alpha_.dt, alpha_.alpha_f}; }
-  Instant instant() const;
-  void explain_failure();
-  void choose_line_search(bool retry);
-
-  static PetscErrorCode residual(TS, PetscReal t, Vec x, Vec v, Vec a, Vec r, void* self) noexcept;
-  static PetscErrorCode jacobian(TS, PetscReal t, Vec x, Vec v, Vec a, PetscReal shift_v, PetscReal shift_a, Mat J,
-                                 Mat P, void* self) noexcept;
-  static PetscErrorCode predict(SNES, Vec x, void* self) noexcept;
-  static PetscErrorCode converged(SNES, PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm,
-                                  SNESConvergedReason* reason, void* self) noexcept;
-  static PetscErrorCode before_stage(TS, PetscReal t) noexcept;
-  static PetscErrorCode check_error(TSAdapt, TS, PetscReal t, Vec x, PetscBool* accept) noexcept;
+  void accept(double t, const AlphaStepper::Outcome& outcome);
+  /// After a step: whether the run has to fail, though the step did not.
+  bool is_at_an_end(const Observers& observers);
+  void explain_failure(double dt);
+  Instant instant() const { return {schedule_.time(), counts_.steps, stepper_.x(), stepper_.v(), stepper_.a()}; }
 
   system::Assembler& assembler_;
   scene::Time time_;
+  Newton newton_;
+  AlphaStepper stepper_;
   Schedule schedule_;
   std::optional<StepControl> control_;   ///< of adaptive steps
-  system::ForceScales scales_;
-  system::Vector x_, v_, a_;   ///< a_: what is reported and predicted with
-  system::Vector x0_, v0_;     ///< at the step's start
-  system::Vector start_acceleration_;
-  system::TangentMatrix tangent_;
-  LinearSolver linear_;
-  TimeStepper stepper_;
-  SNES snes_ = nullptr;   ///< the stepper's
-  KSP ksp_ = nullptr;
-  TangentReuse reuse_;
-  AlphaStep alpha_{};               ///< of the running Newton solve
-  int evaluations_ = 0;             ///< of the residual in it
-  petsc::VectorState tangent_at_;   ///< of the x at which a residual brought its tangent along
-  int expected_newton_ = 1;         ///< as many as the last step took
   Counts counts_;
+  bool is_started_ = false;
+  double last_step_ = 0;    ///< [s]
+  int outside_body_ = -1;   ///< in Network::bodies, of one that the last step brought too near to a singular attitude
   std::string failure_;
-  SolverNumber failed_node_;   ///< where the tangent was singular
-  double furthest_ = 0;        ///< largest coordinate [m]
-  NewtonConvergence convergence_;
-  double last_step_ = 0;      ///< [s]
-  int outside_domain_ = -1;   ///< scene number of an element that lost its length in the running step
-  int outside_body_ = -1;     ///< likewise of a body that turned out of its domain
-  int attempts_ = 0;          ///< of the running step
-  bool keeps_mean_acceleration_ = false;
-  bool combines_ = false;   ///< each residual but a solve's last is followed by its tangent
-  bool user_adapts_ = false;
-  bool user_line_search_ = false;
 };
 
 }   // namespace cablenet::solve

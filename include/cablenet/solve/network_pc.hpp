@@ -5,9 +5,10 @@
 
 #include "cablenet/partition/local_network.hpp"
 
-/// Exact solution of a network's linear systems by block elimination and substructuring: each rank eliminates its
-/// interior nodes from leaf to root, one Allreduce sums what is left on the interface between ranks, every rank solves
-/// that and goes back.  Costs O(nodes) for trees and networks with few loops.  Reads the assembled AIJ matrix.
+/// Solves a network's linear systems exactly, by block elimination.  Each rank eliminates its interior nodes from leaf
+/// to root.  What is left are equations for the nodes on the interface between ranks; one Allreduce sums them, and
+/// every rank solves all of them.  Each rank then goes back to its interior nodes.  For trees and networks with few
+/// loops the cost is O(nodes).
 /// Tests: tests/parallel/network_pc_test.cpp, mixed_blocks_test.cpp
 namespace cablenet::solve {
 
@@ -20,17 +21,18 @@ struct PivotReport {
 /// All member functions are collective.
 class NetworkPc {
 public:
-  /// @param matrix  AIJ in the blocks of `network`, numbered as there
-  /// @param most_per_node  block products that a factorisation may take, over a rank's share of the nodes; larger
-  /// blocks count as so many nodes and products of 3x3 as there are unknowns and work
-  /// @returns nothing where that is not enough
+  /// @param matrix         AIJ, in the blocks of `network` and in its numbering.  Its values are read at each
+  ///                       factorisation
+  /// @param most_per_node  how many products of 3x3 blocks a factorisation may take for each node of a rank's equal
+  ///                       share of the nodes.  A larger block counts as the 3x3 blocks that have its unknowns or its
+  ///                       work
+  /// @returns nothing where a factorisation would take more
   static std::unique_ptr<NetworkPc> make(const partition::LocalNetwork& network, Mat matrix, double most_per_node);
   ~NetworkPc();
 
-  /// Makes `pc` a PCSHELL that solves with this; must not outlive it.
+  /// Makes `pc` a PCSHELL that solves with this.  The PC must not be used after this is gone.
   void attach(PC pc);
-  /// Block products of a factorisation, the interface's included, on the rank that has most, over its share of the
-  /// nodes.
+  /// Block products of a factorisation for each node, on the rank that has most of them, the interface's included.
   double updates_per_node() const;
   PivotReport pivots() const;
 

@@ -1,18 +1,23 @@
 #pragma once
 #include <limits>
 
+#include "cablenet/base/archive.hpp"
+
 namespace cablenet::solve {
 
-/// Tells when Newton's residual is down to rounding, where iterating further gains nothing.
+/// Tells when the residual of Newton's method is down to rounding: further iterations would gain nothing.
+/// Tests: tests/parallel/tangent_reuse_test.cpp
 class NewtonConvergence {
 public:
-  /// @param noise       2-norm of a residual that is rounding alone [N]
-  /// @param norm        of the residual after `iteration` corrections [N]
-  /// @param is_retry    a step that failed before: its first guess may be as good as rounding allows
+  /// @param iteration     corrections so far
+  /// @param norm          2-norm of the residual after them [N]
+  /// @param noise         2-norm of a residual that is rounding alone [N]
+  /// @param is_retry      the step has failed before.  Its first guess may be as good as rounding allows
   /// @param same_tangent  the last correction was made with an older tangent
   bool is_at_rounding(int iteration, double norm, double noise, bool is_retry, bool same_tangent);
-  /// Of the last residual over the one before it; 0 after the first.
+  /// The last residual's norm over that of the one before it; 0 after the first.
   double contraction() const { return contraction_; }
+  void archive(Archive& archive);
 
 private:
   double previous_norm_ = 0;

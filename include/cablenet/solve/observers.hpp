@@ -3,36 +3,39 @@
 
 #include <functional>
 
-/// What a run tells those who watch it.
+/// What a run through time tells those who watch it.
 namespace cablenet::solve {
 
-/// An instant of a run: handed to observers.
+/// An instant of a run.  The vectors hold the unknowns of the free nodes and bodies.
 struct Instant {
-  double t;   ///< [s]
-  long step;
-  Vec x;   ///< positions of the free nodes [m]
-  Vec v;   ///< [m/s]
-  Vec a;   ///< over the last step, (v1 - v0)/dt where the scheme's own alternates; at the start: exact [m/s^2]
+  double t;    ///< [s]
+  long step;   ///< steps done
+  Vec x;       ///< positions [m]
+  Vec v;       ///< velocities [m/s]
+  /// Accelerations: exact at the start; later those of the scheme, or the mean of the last step where they alternate
+  /// from step to step (AlphaWeights::alternates).  [m/s^2]
+  Vec a;
 };
 
+/// How many there were since the start.
 struct Counts {
   long steps = 0;
-  long rejected = 0;
-  long newton = 0;
-  long linear = 0;
+  long rejected = 0;   ///< attempts at steps
+  long newton = 0;     ///< iterations of Newton's method, those of rejected attempts included
+  long linear = 0;     ///< iterations of the linear solver, likewise
 };
 
 enum class Verdict {
   finished,   ///< the scene's end was reached
   stopped,    ///< by -ts_max_steps or -ts_max_time
-  failed      ///< Newton failed down to the smallest step
+  failed      ///< no step was short enough
 };
 
-/// Where a step failed: numbers in network::Network, -1 for what it is not.
+/// Where a step failed: at an element or at a body.  The other one is -1.
 struct FailedPart {
-  int element = -1;
-  int body = -1;
-  bool left_domain = false;   ///< the body, by an attitude that its description or the step cannot follow
+  int element = -1;           ///< in Network::elements
+  int body = -1;              ///< in Network::bodies
+  bool left_domain = false;   ///< the body turned to an attitude that its description or the step cannot follow
 };
 
 struct Observers {

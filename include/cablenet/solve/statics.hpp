@@ -3,20 +3,29 @@
 
 #include <string>
 
-#include "cablenet/solve/defaults.hpp"
+#include "cablenet/solve/linear_solver.hpp"
 #include "cablenet/solve/observers.hpp"
 #include "cablenet/system/static_forces.hpp"
 
-/// Equilibrium from any drawn shape.  Newton's method goes there at once from a shape that is near.  From others the
-/// way is: cables as strings of one tension, linear at first so that the drawn shape is forgotten, then less and less
-/// extensible; the cables as they are, with a tangent that turns by the tension that the last correction was to bring
-/// about, so that what turning stretches does not stiffen it; then with their own tangent.  Where the tangent is
-/// singular or has negative pivots, masses and drag over a pseudo-time 1/shift join in.  As the last resort the network
-/// settles in time (relaxation.hpp).  Nothing whose tangent has negative pivots is taken, unless water flows past, with
-/// which they tell nothing.
+/// Equilibrium from any drawn shape.
 ///
-/// Source: strings after Schek, Comput. Methods Appl. Mech. Engng 3 (1974) 115 (force densities); the last correction's
-/// tension after Magisano, Leonetti & Garcea, IJNME 109 (2017) 1237 (mixed integration point).
+/// Newton's method on the cables as they are comes first.  It finds the equilibrium from a shape that is near it.  From
+/// other shapes the way has three stages, each of which starts from where the one before it ended:
+///   1. Strings.  Each cable pulls with (l/L)^p times one tension.  For p = 1 this is linear, so that the drawn shape
+///      does not matter.  With larger p the strings extend less and less.
+///   2. Ropes.  The forces are those of the cables as they are.  The tangent's geometric stiffness, tension over
+///   length,
+///      takes another tension: the one that the linear equations predicted for the last correction.  An element that
+///      turns far in a correction is stretched by it, and the tension from that stretch would make it far too stiff.
+///   3. Newton's method on the cables as they are.
+/// Where a tangent is singular or has negative pivots, masses and drag are added as in a step of pseudo-time 1/shift.
+/// The last resort is to let the network settle in time (relaxation.hpp).
+///
+/// An equilibrium whose tangent has negative pivots is not stable, and is taken only from the first, direct way.
+/// Where water flows past, the tangent is unsymmetric; its pivots then tell nothing of stability and are not looked at.
+///
+/// Sources: for the strings Schek, Comput. Methods Appl. Mech. Engng 3 (1974) 115 (force densities); for the ropes'
+/// tension Magisano, Leonetti & Garcea, IJNME 109 (2017) 1237 (mixed integration point).
 ///
 /// Tests: tests/verification/statics.py, published_statics.py, static_networks.py, steady_tow.py
 namespace cablenet::solve {
@@ -43,7 +52,7 @@ public:
   bool is_unstable() const { return negative_pivots_ > 0; }
   const std::string& failure() const { return failure_; }
   FailedPart failed_part();
-  std::string linear_solver() const { return describe(ksp_, linear_); }
+  std::string linear_solver() const { return linear_.describe(); }
 
 private:
   struct Goal {
@@ -82,11 +91,11 @@ private:
   LinearSolver linear_;
   system::Vector x_, drawn_, r_, step_, trial_;
   double steadiness_ = 1;
-  double shift_ = 0;        ///< [1/s]
-  double load_ = 0;         ///< 2-norm of the loads on nodes [N]
-  double total_load_ = 0;   ///< sum of their components' absolute values [N]
-  double furthest_drawn_ = 0;
-  double furthest_ = 0;   ///< largest coordinate [m]
+  double shift_ = 0;                      ///< [1/s]
+  double load_ = 0;                       ///< 2-norm of the loads on nodes [N]
+  double total_load_ = 0;                 ///< sum of their components' absolute values [N]
+  double largest_drawn_coordinate_ = 0;   ///< [m]
+  double largest_coordinate_ = 0;         ///< which rounding depends on [m]
   double largest_load_ = 0, imbalance_ = 0;
   int iterations_ = 0;
   long negative_pivots_ = 0;

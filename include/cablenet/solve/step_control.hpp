@@ -1,56 +1,42 @@
 #pragma once
-#include <petscts.h>
-
 #include <string>
 
-#include "cablenet/partition/local_network.hpp"
-#include "cablenet/solve/alpha_step.hpp"
+#include "cablenet/base/archive.hpp"
 
-/// How long a step may be for its local error, the distance by which it alone leads a node astray.
-///   error = |beta + (alpha_f - alpha_m)/2 - 1/6| dt^3 |x'''|,  x''' = (a1 - a0)/(t_a1 - t_a0)
-/// where a0 and a1 are the accelerations kept before and after the step, and t_a the times at which they are those of
-/// the motion.  Attitudes do not count.  Tests: tests/parallel/adaptive_test.cpp
+/// Chooses the length of adaptive steps by the local error of the steps before (local_error.hpp).
+/// Tests: tests/parallel/adaptive_test.cpp
 namespace cablenet::solve {
 
-/// A step's start: x [m], v [m/s] and the acceleration kept then, the mean where TSALPHA2's own alternates [m/s^2].
-struct StepStart {
-  Vec x, v, a;
-};
-
-/// Steps are halved and doubled, so that a tangent serves many.
+/// The step is halved and doubled, never changed a little: a tangent can be kept as long as the step stays.
 class StepControl {
 public:
-  /// @param tolerance  of the local error [m], > 0
-  /// @param first      of the steps asked for [s]
-  /// @param longest    useful one [s]
-  /// @param shortest   that is rejected [s]
-  StepControl(TSAdapt adapt, double tolerance, double first, double longest, double shortest);
+  /// The next attempt over one whose error was too large.
+  static constexpr double refused_scale = 0.5;
 
-  /// Before each attempt: failures of Newton's shorten the step as the user has it.
-  void begin_attempt();
-  /// Is the step to x1 within the tolerance?  If not, PETSc's next attempt takes half the step.  Collective.
-  bool accepts(const AlphaStep& step, const partition::LocalNetwork& network, const StepStart& start, Vec x1);
-  /// The step that was accepted last has been taken.
-  /// @param retried  after attempts that failed or were rejected
+  /// @param tolerance  that the local error of a step may reach [m], > 0
+  /// @param first      the first step [s]
+  /// @param longest    the longest step that is of use [s]
+  /// @param shortest   a step shorter than this is taken whatever its error is [s]
+  StepControl(double tolerance, double first, double longest, double shortest);
+
+  /// Judges an attempt.  @returns false if a shorter one has to be made
+  /// @param error [m]  @param dt [s]
+  bool accepts(double error, double dt);
+  /// The attempt that was judged last is the step.
+  /// @param retried  there were attempts before it
   void advance(bool retried);
 
-  /// The longest next step [s].
+  /// How long the next step may be [s].
   double limit() const { return limit_; }
-  /// Of the last attempt [m].
-  double error() const { return error_; }
-  /// What forbade a step longer than `dt`, if that was its local error; else empty.
+  /// Why no step longer than `dt` could be taken, if the error was the reason; else empty.
   std::string refusal(double dt) const;
+  void archive(Archive& archive);
 
 private:
-  TSAdapt adapt_;
-  PetscReal newton_scale_ = 0;   ///< of a step that Newton's method failed with
   double tolerance_, limit_, longest_, shortest_;
-  double error_ = 0;
-  double dt_ = 0;                               ///< of the last attempt
-  double refused_error_ = 0, refused_dt_ = 0;   ///< of the last attempt beyond the tolerance
-  double a_time_ = 0;                           ///< of the acceleration kept, from the last step's end [s]
-  double next_a_time_ = 0;                      ///< likewise if the last attempt is taken
-  int growing_ = 0;                             ///< steps since the last change for which twice the limit would do
+  double error_ = 0, dt_ = 0;                   ///< of the last attempt
+  double refused_error_ = 0, refused_dt_ = 0;   ///< of the last attempt that was refused
+  int growing_ = 0;                             ///< steps in a row after which twice the limit would have done
 };
 
 }   // namespace cablenet::solve

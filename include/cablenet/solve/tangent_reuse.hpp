@@ -1,41 +1,42 @@
 #pragma once
-#include <petscsnes.h>
 
 namespace cablenet::solve {
 
-/// Keeps a tangent, and its factors, over Newton iterations for as long as they serve, where factors are dear; over
-/// steps, too, after one in which all of them did, lest Newton start off towards another solution.  Does nothing where
-/// -snes_lag_jacobian or -snes_lag_jacobian_persists is given.  Tests: tests/parallel/tangent_reuse_test.cpp
+/// Decides whether the next Newton correction needs a new tangent or can use the last one and its factors.  A tangent
+/// is kept only where factors are dear, and only as long as corrections with it serve: as long as they bring the
+/// residual down well.  It is kept over the end of a step if every correction of that step served; a tangent from
+/// farther back could lead Newton's method to another solution.  Tests: tests/parallel/tangent_reuse_test.cpp
 class TangentReuse {
 public:
   TangentReuse() = default;
-  /// @param worthwhile  factoring costs many times a solve
-  TangentReuse(SNES snes, bool worthwhile);
+  /// @param keeps  whether tangents may be kept at all: factors are dear, many times a solve
+  explicit TangentReuse(bool keeps) : keeps_(keeps) {}
 
-  /// Before each Newton solve.  @param key  what else the tangent depends on; another asks for a new one, and so does
-  /// any <= 0
-  /// @param careful  compute it in every iteration
+  /// Before each Newton solve.
+  /// @param key      what the tangent depends on besides the state: the step [s].  A solve with another key, or with
+  ///                 one <= 0, starts with a new tangent
+  /// @param careful  each correction needs a new tangent
   void begin_solve(double key, bool careful);
-  /// After a correction.
-  /// @param contraction  of the residual by it
+  /// Before each correction.
+  bool wants_new() const { return wants_new_; }
+  /// A new tangent was computed.
+  void note_computed();
+  /// After each correction.
+  /// @param iteration    corrections so far in this solve
+  /// @param contraction  the residual's norm after the correction over that before it
   void note_correction(int iteration, double contraction);
-  void note_computed() { is_new_ = true; }
-  /// The correction that was made last used the tangent of the one before it.  @pre note_correction comes after
+  /// The last correction used a tangent older than itself.  @pre note_correction has not been called since
   bool was_kept() const { return !is_new_; }
-  /// Every iteration computes the tangent anew.
-  bool computes_always() const { return computes_always_; }
+  bool computes_always() const { return !keeps_; }
 
 private:
-  void refresh();
-
-  SNES snes_ = nullptr;
-  bool is_active_ = false;
+  bool keeps_ = false;
+  bool wants_new_ = true;
   bool is_careful_ = false;
   bool new_ones_served_ = false;    ///< in this solve, every correction by a new tangent
   bool kept_ones_served_ = false;   ///< in this solve, every correction by a kept one
   bool is_trusted_ = false;         ///< new tangents served in the last solve
   int good_in_row_ = 0;
-  bool computes_always_ = true;
   bool is_new_ = false;
   double key_ = 0;
 };

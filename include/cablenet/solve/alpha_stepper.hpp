@@ -1,0 +1,111 @@
+#pragma once
+#include <petscts.h>
+
+#include <functional>
+
+#include "cablenet/petsc/handle.hpp"
+#include "cablenet/scene/time.hpp"
+#include "cablenet/solve/stage_equations.hpp"
+#include "cablenet/system/assembler.hpp"
+
+/// PETSc's TSALPHA2, and all that the program knows of it: nothing else calls a function of TS.
+///
+/// Its first acceleration.  TSALPHA2 has no way to be told a0.  It estimates a0 by two steps of dt/2 with weights of
+/// their own (AlphaWeights::is_start), from which a wrong a0 results before PETSc 3.22 and one of first order later.
+/// In those steps the residual here is a - c a0, which is linear and has the solution that makes TSALPHA2's estimate
+/// the true a0, to rounding.  The same holds after restart().
+///
+/// Tests: tests/parallel/dynamics_test.cpp, resume_test.cpp
+namespace cablenet::solve {
+
+using TimeStepper = petsc::Handle<TS, TSDestroy>;
+
+/// All member functions are collective.
+class AlphaStepper {
+public:
+  /// What a step came to, after PETSc's own retries with shorter steps.
+  struct Outcome {
+    bool is_done;
+    bool is_retried;   ///< attempts failed
+    double taken;      ///< [s]
+    double next;       ///< the last attempt's length, or what the user's -ts_adapt_type wants next [s]
+    long rejected, newton, linear;
+  };
+
+  /// Starts from the assembler's start.  Reads the options database (-ts_*, -snes_*, -ksp_*, -pc_*).
+  /// @param most_steps  where -ts_max_steps is not given
+  /// @param prefix      of all options, or nullptr
+  AlphaStepper(const system::Assembler& assembler, StageEquations& equations, const scene::Time& time, long most_steps,
+               const char* prefix);
+
+  /// Where the user asked for -help, PETSc shows the options of a stepper and its solvers.
+  static void show_options(MPI_Comm communicator);
+
+  /// The scene's times, or what the user's options made of them.
+  double first_step() const;
+  double end() const;
+  long most_steps() const;
+  /// The user's -ts_adapt_type chooses the steps.
+  bool user_adapts() const;
+
+  /// An attempt is refused where `accepts` says so of its local error [m] and its length [s]; the next one is shorter
+  /// by `scale`.
+  void control_errors(std::function<bool(double error, double dt)> accepts, double scale);
+  /// The next step starts with the acceleration a() instead of the one that TSALPHA2 keeps.
+  void restart();
+
+  void begin(double t, double dt);
+  Outcome attempt();
+  /// The step is taken, v() as it is now.  @param taken [s]
+  void accept(double taken);
+  /// Runs the user's monitors.
+  void monitor(long step, double t);
+  /// Shows the stepper where the user asked for -ts_view.
+  void view();
+
+  Vec x() const { return x_; }   ///< [m]
+  Vec v() const { return v_; }   ///< [m/s]
+  /// The step's mean where the method's own alternates, else the method's own.  [m/s^2]
+  Vec a() const { return a_; }
+  /// The weights and the length of the last attempt.
+  const AlphaStep& step() const { return step_; }
+  /// The local error of the last attempt [m].  @pre control_errors
+  double error() const { return error_; }
+
+  /// x, v, a.  Saving restarts, so that this run and one that resumes from the archive go on alike.
+  void archive(Archive& archive);
+
+private:
+  void configure(const scene::Time& time, long most_steps, const char* prefix);
+  AlphaStep read_step() const;
+  bool accepts_error();
+
+  static PetscErrorCode residual(TS, PetscReal t, Vec x, Vec v, Vec a, Vec r, void* self) noexcept;
+  static PetscErrorCode jacobian(TS, PetscReal t, Vec x, Vec v, Vec a, PetscReal shift_v, PetscReal shift_a, Mat J,
+                                 Mat P, void* self) noexcept;
+  static PetscErrorCode begin_solve(SNES, Vec x, void* self) noexcept;
+  static PetscErrorCode begin_stage(TS, PetscReal t) noexcept;
+  static PetscErrorCode check_error(TSAdapt, TS, PetscReal t, Vec x, PetscBool* accept) noexcept;
+
+  const partition::LocalNetwork& network_;
+  StageEquations& equations_;
+  system::Vector x_, v_, a_;
+  system::Vector x0_, v0_;   ///< at the step's start
+  system::Vector start_acceleration_;
+  TimeStepper stepper_;
+  SNES snes_ = nullptr;   ///< the stepper's
+  TSAdapt adapt_ = nullptr;
+  AlphaStep step_{};
+  bool keeps_mean_acceleration_ = false;
+  bool shows_while_solving_ = true;
+  int attempts_ = 0;   ///< at the running step
+  double t_ = 0, dt_ = 0;
+  long rejected_ = 0, newton_ = 0, linear_ = 0;   ///< so far
+  std::function<bool(double, double)> accepts_;
+  double refused_scale_ = 1;
+  PetscReal failed_scale_ = 1;   ///< after a failure of Newton's method
+  LocalError local_error_;
+  double error_ = 0;
+};
+
+}   // namespace cablenet::solve

@@ -1,0 +1,89 @@
+#pragma once
+#include <petscsnes.h>
+
+#include <optional>
+#include <string>
+
+#include "cablenet/petsc/object_state.hpp"
+#include "cablenet/solve/linear_solver.hpp"
+#include "cablenet/solve/newton_convergence.hpp"
+#include "cablenet/solve/observers.hpp"
+#include "cablenet/solve/stage_equations.hpp"
+#include "cablenet/solve/tangent_reuse.hpp"
+#include "cablenet/system/assembler.hpp"
+
+namespace cablenet::solve {
+
+/// Newton's method for a network's equations at a stage, with PETSc's SNES.
+///
+/// First guess: x0 + dt v0 + dt^2/2 a0.  End: where the residual is down to rounding (NewtonConvergence) or to PETSc's
+/// tolerances.  Tangents: where no option says otherwise they are made here, after the convergence test, and SNES is
+/// told to keep what it has.  Its own call for a tangent costs a fifth of a small step in look-ups of options.
+/// Line search: none that matters; a retry searches the line.
+///
+/// All member functions are collective.  Tests: tests/parallel/dynamics_test.cpp, tangent_reuse_test.cpp
+class Newton final : public StageEquations {
+public:
+  explicit Newton(system::Assembler& assembler);
+
+  void configure(SNES snes) override;
+  void adopt_options() override;
+  void begin_attempt(bool is_retry) override;
+  void begin_solve(const AlphaStep& step, const StepStart& start, Vec guess) override;
+  void residual(Vec x, Vec v, Vec a, Vec r) override;
+  void tangent() override;
+  Mat tangent_matrix() const override { return tangent_.matrix(); }
+
+  /// M a = f(t, x, v).  @throws SolverError
+  void solve_acceleration(double t, Vec x, Vec v, Vec a);
+  /// Before each step.  @param measures  whether to look up the largest coordinate, which rounding depends on
+  void begin_step(double t, Vec x, bool measures);
+  /// @param iterations  of all solves of the step
+  void end_step(long iterations) { expected_iterations_ = iterations; }
+
+  /// Why the last solve failed.  @param dt  of the last attempt [s]
+  std::string explain_failure(double dt);
+  bool has_converged() const;
+  /// Where the last residual was worst or undefined, on any rank.
+  /// @param known_body  in Network::bodies, of one that is known to have left its domain, or -1
+  FailedPart failed_part(int known_body);
+  std::string linear_solver() const { return linear_.describe(); }
+
+  /// What the next step's path depends on.
+  void archive(Archive& archive);
+
+private:
+  bool makes_tangents(const char* prefix) const;
+  bool has_basic_line_search() const;
+  void choose_line_search(bool searches);
+  bool is_at_rounding(PetscInt iteration, double norm);
+  SNESConvergedReason test(PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm);
+  system::TangentRequest tangent_request() { return {tangent_, {1, step_.shift_v(), step_.shift_a()}}; }
+  system::Stage stage() const { return {t_, step_.dt, step_.alpha_f}; }
+  static PetscErrorCode converged(SNES, PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm,
+                                  SNESConvergedReason* reason, void* self) noexcept;
+
+  system::Assembler& assembler_;
+  system::ForceScales scales_;
+  system::TangentMatrix tangent_;
+  LinearSolver linear_;
+  SNES snes_ = nullptr;
+  TangentReuse reuse_;
+  NewtonConvergence convergence_;
+  AlphaStep step_{};
+  double t_ = 0;                                  ///< of the step's start [s]
+  Vec x_ = nullptr, v_ = nullptr, a_ = nullptr;   ///< at the stage of the last residual
+  petsc::VectorState tangent_at_;                 ///< of the x at which a residual brought its tangent along
+  long evaluations_ = 0;                          ///< of the residual in the running solve
+  long expected_iterations_ = 1;                  ///< as many as the last step took
+  double largest_coordinate_ = 0;                 ///< [m]
+  int outside_element_ = -1;   ///< scene number of an element that lost its length in the running attempt
+  int outside_body_ = -1;      ///< likewise of a body that turned out of its domain
+  SolverNumber singular_node_;     ///< solver number: where the tangent was singular
+  bool is_retry_ = false;
+  bool makes_tangents_ = false;
+  bool combines_ = false;   ///< each residual but a solve's last brings its tangent along
+  bool user_line_search_ = false;
+};
+
+}   // namespace cablenet::solve

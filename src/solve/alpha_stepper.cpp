@@ -1,0 +1,241 @@
+#include "cablenet/solve/alpha_stepper.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "cablenet/petsc/options.hpp"
+#include "cablenet/solve/scheme.hpp"
+
+namespace cablenet::solve {
+namespace {
+
+using petsc::check;
+
+/// TSALPHA2's estimate of the first acceleration doubled it before PETSc 3.22.
+constexpr double start_factor = PETSC_VERSION_LT(3, 22, 0) ? 0.5 : 1.0;
+
+/// As many halvings bring an adaptive step below any that is of use.
+constexpr PetscInt most_rejections = 40;
+
+void archive_vector(Archive& archive, const char* name, Vec vector) {
+  PetscInt size = 0;
+  double* values = nullptr;
+  check(VecGetLocalSize(vector, &size));
+  check(VecGetArray(vector, &values));
+  archive.item(name, std::span(values, static_cast<std::size_t>(size)));
+  check(VecRestoreArray(vector, &values));
+}
+
+}   // namespace
+
+AlphaStepper::AlphaStepper(const system::Assembler& assembler, StageEquations& equations, const scene::Time& time,
+                           long most_steps, const char* prefix)
+    : network_(assembler.network()), equations_(equations) {
+  for (auto* vector : {&x_, &v_, &a_, &x0_, &v0_, &start_acceleration_}) *vector = assembler.make_vector();
+  assembler.fill_initial(x_, v_);
+  check(TSCreate(assembler.communicator(), stepper_.out()));
+  configure(time, most_steps, prefix);
+  check(TSGetSNES(stepper_, &snes_));
+  check(SNESSetComputeInitialGuess(snes_, begin_solve, this));
+  equations_.configure(snes_);
+  check(TSSetFromOptions(stepper_));
+  equations_.adopt_options();
+  check(TSAdaptGetScaleSolveFailed(adapt_, &failed_scale_));
+  keeps_mean_acceleration_ = read_step().alternates();
+  shows_while_solving_ = petsc::shows_while_solving();
+}
+
+void AlphaStepper::configure(const scene::Time& time, long most_steps, const char* prefix) {
+  const Mat tangent = equations_.tangent_matrix();
+  const AlphaWeights weights = weights_of(time);
+  check(TSSetOptionsPrefix(stepper_, prefix));
+  check(TSSetType(stepper_, TSALPHA2));
+  check(TSAlpha2SetParams(stepper_, weights.alpha_m, weights.alpha_f, weights.gamma, weights.beta));
+  check(TSSetApplicationContext(stepper_, this));
+  check(TSSetI2Function(stepper_, nullptr, residual, this));
+  check(TSSetI2Jacobian(stepper_, tangent, tangent, jacobian, this));
+  check(TSSetPreStage(stepper_, begin_stage));
+  check(TS2SetSolution(stepper_, x_, v_));
+  check(TSSetTime(stepper_, time.start));
+  check(TSSetTimeStep(stepper_, time.step));
+  check(TSSetMaxTime(stepper_, time.end));
+  check(
+      TSSetMaxSteps(stepper_, static_cast<PetscInt>(std::min<long>(most_steps, std::numeric_limits<PetscInt>::max()))));
+  check(TSSetExactFinalTime(stepper_, TS_EXACTFINALTIME_STEPOVER));
+  check(TSSetMaxSNESFailures(stepper_, petsc::unlimited));
+  check(TSSetErrorIfStepFails(stepper_, PETSC_FALSE));
+  if (time.tolerance) check(TSSetMaxStepRejections(stepper_, most_rejections));
+  check(TSGetAdapt(stepper_, &adapt_));
+  check(TSAdaptSetType(adapt_, TSADAPTNONE));
+}
+
+void AlphaStepper::show_options(MPI_Comm communicator) {
+  TimeStepper stepper;
+  check(TSCreate(communicator, stepper.out()));
+  check(TSSetType(stepper, TSALPHA2));
+  check(TSSetFromOptions(stepper));
+}
+
+double AlphaStepper::first_step() const {
+  PetscReal step = 0;
+  check(TSGetTimeStep(stepper_, &step));
+  return step;
+}
+
+double AlphaStepper::end() const {
+  PetscReal end = 0;
+  check(TSGetMaxTime(stepper_, &end));
+  return end;
+}
+
+long AlphaStepper::most_steps() const {
+  PetscInt steps = 0;
+  check(TSGetMaxSteps(stepper_, &steps));
+  return steps;
+}
+
+bool AlphaStepper::user_adapts() const {
+  PetscBool fixed = PETSC_TRUE;
+  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(adapt_), TSADAPTNONE, &fixed));
+  return fixed == PETSC_FALSE;
+}
+
+void AlphaStepper::control_errors(std::function<bool(double, double)> accepts, double scale) {
+  accepts_ = std::move(accepts);
+  refused_scale_ = scale;
+  check(TSAdaptSetCheckStage(adapt_, check_error));
+}
+
+void AlphaStepper::restart() {
+  check(VecCopy(a_, start_acceleration_));
+  check(TSRestartStep(stepper_));
+}
+
+void AlphaStepper::begin(double t, double dt) {
+  t_ = t;
+  dt_ = dt;
+  attempts_ = 0;
+  if (!keeps_mean_acceleration_) check(VecCopy(x_, x0_));
+  check(VecCopy(v_, v0_));
+  check(TSSetTime(stepper_, t));
+  check(TSSetTimeStep(stepper_, dt));
+}
+
+AlphaStepper::Outcome AlphaStepper::attempt() {
+  {
+    const petsc::ViewersOff quiet(!shows_while_solving_);
+    check(TSStep(stepper_));
+  }
+  TSConvergedReason reason = TS_CONVERGED_ITERATING;
+  PetscInt rejected = 0, newton = 0, linear = 0;
+  PetscReal reached = 0, next = 0;
+  check(TSGetConvergedReason(stepper_, &reason));
+  check(TSGetStepRejections(stepper_, &rejected));
+  check(TSGetSNESIterations(stepper_, &newton));
+  check(TSGetKSPIterations(stepper_, &linear));
+  check(TSGetTime(stepper_, &reached));
+  check(TSGetTimeStep(stepper_, &next));
+  const bool retried = rejected > rejected_;
+  const Outcome outcome{reason >= 0,      retried,         retried ? reached - t_ : dt_, next, rejected - rejected_,
+                        newton - newton_, linear - linear_};
+  rejected_ = rejected;
+  newton_ = newton;
+  linear_ = linear;
+  return outcome;
+}
+
+/// TSALPHA2 keeps its acceleration to itself, so it is computed again by the same formula.  At spectral radius 1 it
+/// alternates about the truth and the step's mean is kept instead.
+void AlphaStepper::accept(double taken) {
+  local_error_.accept();
+  if (keeps_mean_acceleration_) {
+    check(VecAXPBYPCZ(a_, 1 / taken, -1 / taken, 0, v_, v0_));
+    return;
+  }
+  const double beta = step_.beta, by_dt2 = 1 / (beta * taken * taken);
+  check(VecAXPBYPCZ(a_, by_dt2, -by_dt2, -(1 - 2 * beta) / (2 * beta), x_, x0_));
+  check(VecAXPY(a_, -1 / (beta * taken), v0_));
+}
+
+void AlphaStepper::monitor(long step, double t) { check(TSMonitor(stepper_, static_cast<PetscInt>(step), t, x_)); }
+
+void AlphaStepper::view() { check(TSViewFromOptions(stepper_, nullptr, "-ts_view")); }
+
+void AlphaStepper::archive(Archive& archive) {
+  archive_vector(archive, "x", x_);
+  archive_vector(archive, "v", v_);
+  archive_vector(archive, "a", a_);
+  local_error_.archive(archive);
+  restart();
+}
+
+AlphaStep AlphaStepper::read_step() const {
+  PetscReal alpha_m = 0, alpha_f = 0, gamma = 0, beta = 0, dt = 0;
+  check(TSAlpha2GetParams(stepper_, &alpha_m, &alpha_f, &gamma, &beta));
+  check(TSGetTimeStep(stepper_, &dt));
+  return {{alpha_m, alpha_f, gamma, beta}, dt};
+}
+
+PetscErrorCode AlphaStepper::residual(TS, PetscReal, Vec x, Vec v, Vec a, Vec r, void* self) noexcept {
+  PetscFunctionBeginUser;
+  auto& stepper = *static_cast<AlphaStepper*>(self);
+  if (stepper.step_.is_start())
+    PetscCall(VecWAXPY(r, -start_factor, stepper.start_acceleration_, a));
+  else
+    stepper.equations_.residual(x, v, a, r);
+  PetscFunctionReturn(petsc::success);
+}
+
+PetscErrorCode AlphaStepper::jacobian(TS, PetscReal, Vec, Vec, Vec, PetscReal, PetscReal, Mat J, Mat P,
+                                      void* self) noexcept {
+  PetscFunctionBeginUser;
+  static_cast<AlphaStepper*>(self)->equations_.tangent();
+  if (J != P) {
+    PetscCall(MatAssemblyBegin(J, MAT_FINAL_ASSEMBLY));
+    PetscCall(MatAssemblyEnd(J, MAT_FINAL_ASSEMBLY));
+  }
+  PetscFunctionReturn(petsc::success);
+}
+
+/// PETSc asks for a first guess before each Newton solve.
+PetscErrorCode AlphaStepper::begin_solve(SNES, Vec x, void* self) noexcept {
+  PetscFunctionBeginUser;
+  auto& stepper = *static_cast<AlphaStepper*>(self);
+  stepper.step_ = stepper.read_step();
+  // The stepper's own vectors stay at the step's start until it is accepted.
+  stepper.equations_.begin_solve(stepper.step_, {stepper.x_, stepper.v_, stepper.a_}, x);
+  PetscFunctionReturn(petsc::success);
+}
+
+PetscErrorCode AlphaStepper::begin_stage(TS ts, PetscReal) noexcept {
+  PetscFunctionBeginUser;
+  AlphaStepper* stepper = nullptr;
+  PetscCall(TSGetApplicationContext(ts, &stepper));
+  if (stepper->accepts_) PetscCall(TSAdaptSetScaleSolveFailed(stepper->adapt_, stepper->failed_scale_));
+  if (!stepper->read_step().is_start()) ++stepper->attempts_;
+  stepper->equations_.begin_attempt(stepper->attempts_ > 1);
+  PetscFunctionReturn(petsc::success);
+}
+
+bool AlphaStepper::accepts_error() {
+  if (step_.is_start()) return true;
+  Vec end = nullptr;
+  check(SNESGetSolution(snes_, &end));
+  error_ = local_error_.estimate(step_, network_, {x_, v_, a_}, end);
+  return accepts_(error_, step_.dt);
+}
+
+/// PETSc asks after each of its stages that Newton's method solved.
+PetscErrorCode AlphaStepper::check_error(TSAdapt adapt, TS ts, PetscReal, Vec, PetscBool* accept) noexcept {
+  PetscFunctionBeginUser;
+  AlphaStepper* stepper = nullptr;
+  PetscCall(TSGetApplicationContext(ts, &stepper));
+  if (stepper->accepts_error()) PetscFunctionReturn(petsc::success);
+  *accept = PETSC_FALSE;
+  PetscCall(TSAdaptSetScaleSolveFailed(adapt, stepper->refused_scale_));
+  // Newton's method did well, so the next attempt is not a retry.
+  if (stepper->attempts_ == 1) stepper->attempts_ = 0;
+  PetscFunctionReturn(petsc::success);
+}
+
+}   // namespace cablenet::solve
