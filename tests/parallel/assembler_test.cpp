@@ -4,8 +4,11 @@
 
 #include <algorithm>
 
+#include "../../src/system/block_pattern.hpp"
 #include "../support/networks.hpp"
+#include "cablenet/base/errors.hpp"
 #include "cablenet/elements/cable.hpp"
+#include "cablenet/petsc/queries.hpp"
 
 using namespace cablenet;
 using namespace cablenet::test;
@@ -191,6 +194,41 @@ TEST_P(Assembler, OtherTypesOfMatricesHoldTheSameTangent) {
       const double error = size(difference(found, expected)) / size(expected);
       EXPECT_EQ(error <= 1e-13, factor == 1) << type << ": " << error << " with a factor of " << factor;
     }
+  }
+}
+
+/// A solver that is told so reads half of the matrix.
+TEST_P(Assembler, TheTangentIsCalledSymmetricWhereItIs) {
+  network::Network undamped = network_;
+  for (auto& material : undamped.materials) material.axial_damping = 0;
+  for (const network::Network& network : {network_, undamped})
+    for (const auto kind : {elements::Tangent::exact, elements::Tangent::secant}) {
+      System system(network, {GetParam().scheme, GetParam().xi, kind}, PETSC_COMM_WORLD);
+      begin(system);
+      system::TangentMatrix matrix = system.assembler.make_tangent();
+      system.assembler.tangent(state_.stage, system.vector(state_.x), system.vector(state_.v), system.vector(state_.a),
+                               {matrix, {1, state_.shift_v, 0}});
+      const Field product = times_direction(system, state_, matrix);
+      const system::Vector turned = system.assembler.make_vector();
+      petsc::check(MatMultTranspose(matrix.matrix(), system.vector(state_.direction), turned));
+      const double asymmetry = size(difference(system.field(turned), product)) / size(product);
+      EXPECT_EQ(petsc::is_known_symmetric(matrix.matrix()), asymmetry <= 1e-13)
+          << (kind == elements::Tangent::exact ? "exact" : "secant") << ": asymmetry of " << asymmetry;
+    }
+}
+
+/// On every rank, though one alone has it.
+TEST(TangentMatrix, ThatIsLongerThan32BitsCountIsRefused) {
+  const int ranks = size_of(PETSC_COMM_WORLD);
+  partition::LocalNetwork network;
+  if (rank_of(PETSC_COMM_WORLD) == ranks - 1) network.owned = 240'000'000;
+  try {
+    system::BlockPattern(network).fix(PETSC_COMM_WORLD);
+    ADD_FAILURE() << "2.16e9 values were taken";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("2.2e+09 values"), std::string::npos) << text;
+    EXPECT_NE(text.find("at least " + std::to_string(ranks + 1) + " ranks"), std::string::npos) << text;
   }
 }
 

@@ -77,6 +77,12 @@ private:
   petsc::Handle<KSP, KSPDestroy> ksp_;
 };
 
+/// Leaves `diagonal` alone in a node's rows and columns.
+void zero_node(const Problem& problem, PetscInt node, double diagonal) {
+  const PetscInt rows[] = {3 * node, 3 * node + 1, 3 * node + 2};
+  petsc::check(MatZeroRowsColumns(problem.matrix(), 3, rows, diagonal, nullptr, nullptr));
+}
+
 class NetworkPcOf : public testing::TestWithParam<std::tuple<NamedScene, Scheme>> {};
 
 const std::string loops = R"(
@@ -150,8 +156,7 @@ TEST(NetworkPc, NamesTheNodeWhereTheMatrixIsSingular) {
     for (const Scheme scheme : {Scheme::energy_momentum, Scheme::plain}) {
       Problem problem(network_of(text), scheme);
       const PetscInt node = problem.system().assembler.network().free_nodes / 2;
-      const PetscInt rows[] = {3 * node, 3 * node + 1, 3 * node + 2};
-      petsc::check(MatZeroRowsColumns(problem.matrix(), 3, rows, 0, nullptr, nullptr));
+      zero_node(problem, node, 0);
       problem.relative_residual();
       EXPECT_EQ(problem.reason(), KSP_DIVERGED_PC_FAILED);
       EXPECT_EQ(problem.pc().pivots().singular_node, SolverNumber(node));
@@ -167,6 +172,26 @@ TEST(NetworkPc, CountsNegativePivots) {
   problem.tangent().set_identity(-1);
   problem.relative_residual();
   EXPECT_EQ(problem.pc().pivots().negative, 3 * problem.system().assembler.network().free_nodes);
+}
+
+/// Nodes that ranks share are solved for apart, from the sum of what all ranks leave there.
+TEST(NetworkPc, CountsAndNamesPivotsOfTheInterface) {
+  for (const std::string& text : {loops, array, net})
+    for (const Scheme scheme : {Scheme::energy_momentum, Scheme::plain}) {
+      Problem problem(network_of(text), scheme);
+      const std::vector<SolverNumber> shared = problem.system().partition.interface.number;
+      EXPECT_EQ(shared.empty(), size_of(PETSC_COMM_WORLD) == 1);
+      for (const SolverNumber node : shared) {
+        problem.tangent().set_identity(1);
+        zero_node(problem, node.value(), -1);
+        problem.relative_residual();
+        EXPECT_EQ(problem.pc().pivots().negative, 3) << "node " << node.value();
+        zero_node(problem, node.value(), 0);
+        problem.relative_residual();
+        EXPECT_EQ(problem.reason(), KSP_DIVERGED_PC_FAILED);
+        EXPECT_EQ(problem.pc().pivots().singular_node, node);
+      }
+    }
 }
 
 TEST(NetworkPc, IsRefusedWhereItWouldTakeTooMuchWork) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -247,6 +248,34 @@ TEST(Elimination, HoldsPivotsAgainstTheirColumns) {
   EXPECT_EQ(s.elimination(false).factor({s.matrix.data(), nullptr, nullptr}).singular, 0);
 }
 
+/// The pivots of a diagonal matrix are its entries, exactly.
+TEST(Elimination, TakesAPivotOfTheSizeOfRoundingForSingular) {
+  const double eps = std::numeric_limits<double>::epsilon();
+  for (const bool symmetric : {false, true})
+    for (const int pivot : {0, 1, 2})
+      for (const double size : {0.0, 0.5, -0.5, 2.0, -2.0}) {
+        System s{{3, 3}, 2, {{0, 1}}, Dense::Identity(6, 6)};
+        s.matrix(3 + pivot, 3 + pivot) = size * eps;
+        const Pivots pivots = s.elimination(symmetric).factor({s.matrix.data(), nullptr, nullptr});
+        EXPECT_EQ(pivots.singular, std::abs(size) > 1 ? -1 : 1) << "pivot " << pivot << ", " << size << " eps";
+        EXPECT_EQ(pivots.negative, size < -1 ? 1 : 0);
+      }
+}
+
+/// Another row's entry makes the column large, and is none of its pivot.
+TEST(Elimination, TakesABodysPivotOfTheSizeOfRoundingForSingular) {
+  const double eps = std::numeric_limits<double>::epsilon();
+  for (const int body : {5, 6, 7})
+    for (int pivot = 1; pivot < body; ++pivot)
+      for (const double size : {0.0, 0.5, -0.5, 2.0, -2.0}) {
+        System s{{3, body}, 2, {{0, 1}}, Dense::Identity(3 + body, 3 + body)};
+        s.matrix(3, 3 + pivot) = 1;
+        s.matrix(3 + pivot, 3 + pivot) = size * eps;
+        const Pivots pivots = s.elimination(false).factor({s.matrix.data(), nullptr, nullptr});
+        EXPECT_EQ(pivots.singular, std::abs(size) > 1 ? -1 : 1) << "pivot " << pivot << ", " << size << " eps";
+      }
+}
+
 TEST(Elimination, NamesTheSingularPivot) {
   for (const bool symmetric : {false, true}) {
     System s = random_system(std::vector<int>(6, 3), 6, chain, symmetric);
@@ -288,7 +317,15 @@ TEST(Plan, CountsItsWorkAndGivesUpBeyondTheLimit) {
   EXPECT_EQ(make_plan(s.block_graph(), false)->updates, 6);
   EXPECT_EQ(make_plan(s.block_graph(), false)->later.size(), 6u);
   EXPECT_FALSE(make_plan(s.block_graph(), false, 5).has_value());
-  EXPECT_THROW(make_plan({{8}, 1, {0, 0}, {}}, false), std::invalid_argument);
+}
+
+TEST(Plan, IsRefusedForBlocksThatAreEmptyOrTooLarge) {
+  for (const int size : {1, 3, 7})
+    for (const int eliminated : {1, 2})
+      EXPECT_TRUE(make_plan({{3, size}, eliminated, {0, 0, 0}, {}}, false).has_value()) << size;
+  for (const int size : {-1, 0, 8})
+    for (const int eliminated : {1, 2})
+      EXPECT_THROW(make_plan({{3, size}, eliminated, {0, 0, 0}, {}}, false), std::invalid_argument) << size;
 }
 
 TEST(Plan, AStarCostsLinearlyInItsArms) {
