@@ -131,8 +131,29 @@ def check_precession(v):
         v.check(f"{what}: angular velocity [rad/s]", np.abs(turning.w - body_spin).max(), 1e-3)
 
 
+def check_half_turn(v):
+    """A step in which a body would turn by half a turn or more is refused: its ends do not tell how far it has turned,
+    and a shorter one is taken instead; where none may be, the run ends and says why."""
+    step, end = 0.1, 0.4
+    for turns in (0.6, 0.9, 1.3, 1.9):
+        rate = 2 * np.pi * turns / step
+        case = body_scene({"wheel": {"mass": 1.0, "inertia": [1, 2, 2.5], "position": [0, 0, 0],
+                                     "angular_velocity": [rate, 0, 0]}}, end, step, step)
+        run, _ = v.attempt(case)
+        turning, angle = Turning(run, "wheel"), rate * run["time"] / 2
+        exact = np.column_stack([np.cos(angle), np.sin(angle), 0 * angle, 0 * angle])
+        what = f"{turns} turns in a step"
+        v.at_least(f"{what}: rejected steps", run.counted("rejected_steps"), 1)
+        v.check(f"{what}: quaternion, its sign too", np.abs(turning.q - exact).max(), 1e-11)
+        # The option's name in older and newer PETSc; the one that the version does not know is only noted.
+        _, done = v.attempt(case, "-ts_max_reject", 0, "-ts_max_step_rejections", 0)
+        v.close(f"{what}, none rejected: exit status", done.returncode, 3, 0)
+        v.says(f"{what}, none rejected", done.stderr, "at body wheel: it turns by half a turn within a step")
+
+
 def main():
     verification = Verification(__doc__)
+    check_half_turn(verification)
     check_tumbling(verification)
     check_order(verification)
     check_turned_axes(verification)

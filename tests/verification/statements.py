@@ -76,6 +76,33 @@ def check_damping(v):
                 v.check(f"{what}: pole off the mid-point rule's, relative", abs(found - stepped) / abs(pole), 1e-9)
 
 
+def check_axial_dissipation(v):
+    """Xi damps a mass on one element as an axial damper of xi EA dt would, with and without dampers in the scene; a
+    scene that names no scheme has xi = 0.05, one that does has none."""
+    length, stiffness, mass, line, step = 1.5, 300.0, 0.5, 1e-9, 0.01
+    whole, spring = mass + line * length / 3, stiffness / length
+    damper = {"mass_per_length": line, "axial_stiffness": stiffness, "axial_damping": 1}
+    for name, keys, options, xi in (("no scheme named", {}, (), 0.05), ("scheme named", ENERGY_MOMENTUM, (), 0),
+                                    ("0.2 asked for", ENERGY_MOMENTUM, ("-cable_axial_dissipation", 0.2), 0.2)):
+        rate = xi * step * spring / (2 * whole)
+        pole = complex(-rate, np.sqrt(spring / whole - rate**2))
+        stepped = np.log((1 + pole * step / 2) / (1 - pole * step / 2)) / step   # of the mid-point rule
+        for beside in (False, True):
+            points = {"pin": HELD, "ball": {"position": [1.6, 0, 0], "mass": mass}}
+            cables = {"cable": {"from": "pin", "to": "ball", "elements": 1, "length": length}}
+            if beside:
+                points.update({"post": {"position": [0, 9, 0], "motion": "fixed"}, "end": {"position": [1, 9, 0]}})
+                cables["other"] = {"type": "damped", "from": "post", "to": "end", "elements": 1}
+            case = scene({"mass_per_length": line, "axial_stiffness": stiffness}, points, cables, 1000 * step, step,
+                         step, ["ball"], 0, **keys)
+            if beside:
+                case["cable_types"]["damped"] = damper
+            run = v.run(case, *options)
+            found = fitted_pole(run["time"], run["ball.x"] - length, stepped)
+            what = f"axial dissipation, {name}{', beside a damper' if beside else ''}"
+            v.check(f"{what}: pole off the mid-point rule's, relative", abs(found - stepped) / abs(pole), 1e-9)
+
+
 def bounce(t, length, slack, mass, stiffness):
     """Height of a ball that falls `slack` on a string of this length, and bounces, again and again."""
     fall, omega, sag = np.sqrt(2 * slack / GRAVITY), np.sqrt(stiffness / mass), mass * GRAVITY / stiffness
@@ -179,6 +206,7 @@ def main():
     verification = Verification(__doc__)
     check_free_flight(verification)
     check_damping(verification)
+    check_axial_dissipation(verification)
     check_tension_only(verification)
     check_rest(verification)
     check_secant(verification)

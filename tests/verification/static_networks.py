@@ -57,6 +57,20 @@ def buoy_at_the_surface(v):
             abs(a[2] + (1025 * displaced - weight) * 9.81) / (1025 * volume * 9.81), 1e-9)
 
 
+def on_the_bed(v):
+    """A drawn-out line on the bed lies where the bed's pressure is its weight in water, be it hardly heavier than that:
+    contact sets in within the outermost fifth of this depth."""
+    diameter, stiffness, gravity = 0.05, 2e3, 10
+    for density in (1030, 1100, 7800):
+        depth = (density - WATER["density"]) * np.pi * diameter**2 / 4 * gravity / (stiffness * diameter)
+        keys = {"diameter": diameter, "density": density, "axial_stiffness": 1e4}
+        points = {"a": fixed(0, 0, -20 - depth), "b": {"position": [10, 0.1, -20], "force": [50, 0, 0]}}
+        cable = {"line": {"from": "a", "to": "b", "elements": 5, "length": 10}}
+        run = v.run(still(keys, points, cable, ["b"], gravity,
+                          {"fluid": WATER, "seabed": {"level": -20, "stiffness": stiffness, "damping": 0}}))
+        v.close(f"line of {density} kg/m3 on the bed: depth in it [m]", -20 - at_rest(run, "b")[2], depth, 1e-8 * depth)
+
+
 def nets(v):
     """A net held at its sides sags under its weight, and nets hang or stand in a current: told by their forces' balance
     alone, as no point lies in them."""
@@ -113,7 +127,7 @@ def none(v):
 
 def main():
     verification = Verification(__doc__)
-    for check in (slack_and_taut, buoyant_line, buoy_at_the_surface, nets, strangers, none):
+    for check in (slack_and_taut, buoyant_line, buoy_at_the_surface, on_the_bed, nets, strangers, none):
         check(verification)
     verification.finish()
 

@@ -1,5 +1,7 @@
 """Cables towed steadily against the exact curves: as a current past a fixed point, as a ship that moves, and going on
 from equilibrium in time."""
+import re
+
 import numpy as np
 
 from statics_support import TOLERANCE, at_rest, fixed, report_number, still
@@ -68,6 +70,31 @@ def check_stays(v, case):
         v.check(f"{name}: tension's drift in 20 s, relative", np.ptp(tension) / tension[0], 1e-8)
 
 
+TOWS = {   # velocities of two tow points: that of the frame
+    "together": ([2, 1, 0], [2, 1, 0], [2, 1, 0]),
+    "one slower": ([2, 1, 0], [1.6, 1.2, 0], [1.8, 1.1, 0]),
+    "one much slower": ([2, 1, 0], [1.4, 1.2, 0], [0, 1.1, 0]),
+    "apart": ([2, 1, 0], [-2, 1, 0], [0, 1, 0]),
+    "one stays": ([2, 1, 0], [0, 0, 0], [0, 0, 0]),
+    "never": ([2, 1, 0.5], [4, -1, 0.1], [0, 0, 0]),
+}
+
+
+def check_frames(v):
+    """Two tow points: where they differ by more than a quarter of their mean, nothing moves that way."""
+    keys = {"mass_per_length": 1, "axial_stiffness": 1e5}
+    for name, (one, other, frame) in TOWS.items():
+        points = {"a": {"position": [0, 0, 0], "motion": {"velocity": one}},
+                  "b": {"position": [10, 0, 0], "motion": {"velocity": other}}}
+        cable = {"line": {"from": "a", "to": "b", "elements": 8, "length": 11}}
+        for time in ({}, {"initial": "static", "time": {"end": 0.1, "step": 0.01}}):
+            case = still(keys, points, cable, ["a"], **time)
+            run = v.run(case)
+            found = re.search(r"frame_velocity: \[(.*)\]", run.report)[1].split(", ")
+            v.check(f"tow points, {name}, {'going on' if time else 'still'}: frame's velocity [m/s]",
+                    np.abs(np.array(found, float) - frame).max(), 1e-6)
+
+
 # knots: depth [m], layback [m], T at the ship [N], angle there from the horizontal [deg]
 BIOMAPPER = {1: (988.412, 145.680, 15467.65, 77.1792), 2: (860.859, 477.074, 14410.38, 49.3908),
              4: (503.544, 835.500, 12047.87, 22.8394), 6: (329.565, 928.920, 12114.18, 15.1158),
@@ -113,6 +140,7 @@ def main():
         check_exact(verification, case)
     check_ways(verification, cases[1])
     check_stays(verification, cases[1])
+    check_frames(verification)
     check_biomapper(verification)
     verification.check("rejected steps in all runs", verification.rejected, 0)
     verification.finish()
