@@ -94,11 +94,17 @@ void Statics::measure_loads() {
 bool Statics::solve() {
   measure_loads();
   const bool directly = go_directly();
-  if (directly && (is_near_drawn() || is_taut())) return conclude(true);
+  if (directly && (is_near_drawn() || is_taut())) {
+    count_negative_pivots();
+    return conclude(true);
+  }
   const system::Vector direct = assembler_.make_vector();
   check(VecCopy(x_, direct));
   if (go_by_strings() || go_in_time()) return conclude(true);
-  if (directly) check(VecCopy(direct, x_));
+  if (directly) {
+    check(VecCopy(direct, x_));
+    count_negative_pivots();
+  }
   return conclude(directly);
 }
 
@@ -140,13 +146,18 @@ bool Statics::go_by_strings() {
 
 /// What pushes may stand on end, where nothing but rounding would topple it.
 bool Statics::settle_as_they_are(int iterations) {
-  const StaticRule exact{StaticRule::Kind::exact};
-  if (!settle(exact, {0, iterations, true})) return false;
+  if (!settle({StaticRule::Kind::exact}, {0, iterations, true})) return false;
+  count_negative_pivots();
+  return negative_pivots_ == 0;
+}
+
+/// At the shape that is found: the last correction's tangent was that of the shape before, and a shape that is drawn in
+/// equilibrium takes no correction.
+void Statics::count_negative_pivots() {
   // What drifts freely has pivots that are rounding.
   shift_ = first_shift;
-  evaluate(exact, x_, true);
+  evaluate({StaticRule::Kind::exact}, x_, true);
   factor_and_solve();
-  return negative_pivots_ == 0;
 }
 
 /// As the last resort, lets the network settle; large nets would take many minutes, without a word.

@@ -76,6 +76,7 @@ private:
   void measure_loads();
   double evaluate(const system::StaticRule& rule, Vec x, bool with_tangent);
   bool factor_and_solve();
+  void count_negative_pivots();
   bool is_final(double norm, double previous) const;
   double reference() const;
   bool conclude(bool converged);
