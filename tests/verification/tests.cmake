@@ -15,6 +15,7 @@ cablenet_script_test(verification_low_langley verification/low_langley.py 120 ve
 cablenet_script_test(verification_water_bodies verification/water_bodies.py 120 verification)
 cablenet_script_test(verification_water_cables verification/water_cables.py 120 verification)
 cablenet_script_test(verification_statics verification/statics.py 300 verification)
+cablenet_script_test(verification_static_choices verification/static_choices.py 120 verification)
 cablenet_script_test(verification_published_statics verification/published_statics.py 120 verification)
 cablenet_script_test(verification_steady_tow verification/steady_tow.py 120 verification)
 cablenet_script_test(verification_static_networks verification/static_networks.py 120 verification)
