@@ -16,7 +16,7 @@ from benchmarks.runs import Laboratory, RunFailed
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
-# Sections by number; {elements: steps} are chosen so that most runs take some seconds.
+# The sections by number.  {elements: steps} is chosen so that most runs take some seconds.
 FULL = {
     1: chains.free_fall,
     2: partial(chains.sizes, counts={10**3: 1000, 10**4: 100, 10**5: 10, 10**6: 10}),

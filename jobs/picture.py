@@ -1,5 +1,5 @@
 """Draws the cables of a run, coloured by tension or strain, and its bodies as boxes.
-To be run by pvbatch, under jobs/with_xvfb.sh."""
+pvbatch runs this script, under jobs/with_xvfb.sh."""
 import argparse
 import pathlib
 import sys
@@ -13,9 +13,9 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
 UNITS = {"tension": "N", "strain": "1"}
 AXES = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
-FLAT = 0.05        # a structure thinner than this part of its second extent counts as planar
+FLAT = 0.05        # a structure counts as planar if its third extent is less than this part of its second
 MARGIN = 1.12
-BODY_COLOUR = (0.91, 0.55, 0.26)       # none of viridis
+BODY_COLOUR = (0.91, 0.55, 0.26)       # viridis, the cables' colour map, does not have this colour
 BODY_EDGE_COLOUR = (0.25, 0.13, 0.05)
 SEEN = 0.015       # the longest edge of the largest body is at least this part of the picture's height
 CORNERS = numpy.array([(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
@@ -45,7 +45,7 @@ def nearest(steps, text):
 
 
 def frozen(data):
-    """A source that gives these data at any time."""
+    """A ParaView source that gives these data at any time."""
     source = pv.TrivialProducer()
     source.GetClientSideObject().SetOutput(data)
     source.UpdatePipeline()
@@ -53,7 +53,7 @@ def frozen(data):
 
 
 def surface_at(reader, time):
-    """The cables at one time as a source of their own, and their nodes as an array."""
+    """The cables at one time as a ParaView source, and the positions of their nodes [m], (nodes, 3)."""
     surface = pv.ExtractSurface(Input=reader)
     surface.UpdatePipeline(time)
     data = servermanager.Fetch(surface)
@@ -61,20 +61,20 @@ def surface_at(reader, time):
 
 
 def product(left, right):
-    """Of quaternions w x y z, row by row."""
+    """The products of quaternions w x y z, row by row."""
     w, x = left[:, :1], left[:, 1:]
     v, y = right[:, :1], right[:, 1:]
     return numpy.hstack([w * v - numpy.sum(x * y, axis=1, keepdims=True), w * y + v * x + numpy.cross(x, y)])
 
 
 def turned(quaternion, vectors):
-    """(bodies, 8, 3): each body's vectors from its own axes to the world's."""
+    """Turns the vectors of each body, (bodies, 8, 3), from its own axes to the world's."""
     w, x = quaternion[:, None, :1], quaternion[:, None, 1:]
     return vectors + 2 * numpy.cross(x, numpy.cross(x, vectors) + w * vectors)
 
 
 class Bodies:
-    """The boxes at one time."""
+    """The boxes of all bodies at one time."""
     def __init__(self, reader, time):
         reader.UpdatePipeline(time)
         data = servermanager.Fetch(reader)
@@ -89,7 +89,7 @@ class Bodies:
         return (self.centres[:, None, :] + scale * self.from_centres).reshape(-1, 3)
 
     def surface(self, scale):
-        """A source of its own."""
+        """The boxes as a ParaView source, enlarged by `scale`."""
         faces = numpy.array(FACES)[None] + 8 * numpy.arange(len(self.centres))[:, None, None]
         cells = numpy.insert(faces.reshape(-1, 4), 0, 4, axis=1).ravel()
         points, polygons, boxes = vtkPoints(), vtkCellArray(), vtkPolyData()
@@ -101,7 +101,7 @@ class Bodies:
 
 
 def body_scale(bodies, wish, height):
-    """How much larger than true the bodies are drawn, in a picture of a true height [m]."""
+    """The factor by which bodies are enlarged, in a picture whose height stands for `height` [m]."""
     if wish:
         return wish
     longest = max((instant.edges.max() for instant in bodies), default=0)
@@ -125,7 +125,7 @@ def look_direction(points, wish):
         direction = numpy.array([float(part) for part in wish.split(",")])
     else:
         _, extent, axes = numpy.linalg.svd(points - points.mean(axis=0), full_matrices=False)
-        if extent[1] < 1e-6 * extent[0]:                     # one straight line: from the side, level
+        if extent[1] < 1e-6 * extent[0]:                     # one straight line is seen from the side, level
             direction = numpy.cross(axes[0], AXES["z"])
             if numpy.linalg.norm(direction) < 1e-6:
                 direction = numpy.array(AXES["y"], float)
@@ -133,7 +133,7 @@ def look_direction(points, wish):
             direction = axes[2]
         else:
             direction = numpy.array([-0.5, 0.75, -0.43])
-        if direction @ (-0.3, 1, -0.6) < 0:                  # x to the right, from above rather than from below
+        if direction @ (-0.3, 1, -0.6) < 0:                  # x points to the right, and the camera looks downwards
             direction = -direction
     return direction / numpy.linalg.norm(direction)
 
@@ -147,7 +147,7 @@ def camera_axes(look):
 
 
 def aim(view, points, look, size):
-    """Parallel projection that holds every point; the size of a pixel in metres."""
+    """Sets a parallel projection that shows every point.  @return the size of a pixel [m]"""
     right, up = camera_axes(look)
     across, along, depth = points @ right, points @ up, points @ look
     centre = sum(axis * (part.min() + part.max()) / 2
@@ -200,7 +200,7 @@ def draw(view, source, radius, table, field, colours):
     shown.LookupTable = table
     shown.Specular = 0
     shown.SetScalarBarVisibility(view, True)
-    table.RescaleTransferFunction(*colours)                  # showing a part rescales to that part
+    table.RescaleTransferFunction(*colours)                  # because pv.Show rescales to the part that it shows
 
 
 def draw_bodies(view, source):
@@ -224,7 +224,8 @@ def open_index(path):
 
 
 def fit(view, surfaces, bodies, options, size):
-    """Aims at cables and bodies; the size of a pixel in metres, and how much the bodies are enlarged."""
+    """Aims the camera at cables and bodies.
+    @return the size of a pixel [m], and the factor by which bodies are enlarged"""
     def seen(scale):
         return numpy.vstack([nodes for _, nodes in surfaces] + [instant.corners(scale) for instant in bodies])
     look = look_direction(seen(1.0), options.view)

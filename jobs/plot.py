@@ -12,7 +12,7 @@ import numpy
 
 
 def read_table(path):
-    """{column: values}; lines that begin with # are comments."""
+    """The table as {column: values}.  Lines that begin with # are comments."""
     with open(path, encoding="utf-8", newline="") as file:
         rows = list(csv.reader(line for line in file if not line.startswith("#")))
     values = numpy.array(rows[1:], float).reshape(-1, len(rows[0]))
@@ -26,7 +26,7 @@ def column_of(table, name, path):
 
 
 def largest_difference(history, reference, name):
-    """Over the reference's times that the history reaches; linear between history rows."""
+    """The largest difference at the reference's times that the history reaches; linear between history rows."""
     reached = reference["time"] <= history["time"][-1]
     times = reference["time"][reached]
     difference = numpy.interp(times, history["time"], history[name]) - reference[name][reached]

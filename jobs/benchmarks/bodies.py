@@ -1,4 +1,4 @@
-"""Rigid bodies: what they cost beside point masses, a body with many cables, two ranks."""
+"""Measures rigid bodies: their cost beside that of point masses, a body with many cables, and two ranks."""
 import re
 
 from . import scenes
@@ -12,7 +12,8 @@ def newton(stepping):
 
 
 def products(stepping):
-    """Block products a node, as the run's first line has them, too; a dash where MUMPS solved."""
+    """Products of two 3x3 blocks per node in a factorisation, as in the run's first line.  It is a dash where MUMPS
+    solved."""
     found = re.search(r"([\d.]+) block products a node", stepping.long.report["linear_solver"])
     return found[1] if found else "-"
 
@@ -76,7 +77,8 @@ def two_ranks(laboratory, page, masses, elements, steps):
 
 
 def bodies(laboratory, page, masses, elements, steps, cables, per_cable):
-    """@param masses  each with a cable of `elements`   @param cables  numbers of one body's, of `per_cable`"""
+    """@param masses  number of bodies, each with a cable of `elements` elements
+    @param cables  how many cables one body has, in each measurement, with `per_cable` elements each"""
     page.heading("9. Rigid bodies, step 1e-3 s, energy_momentum")
     beside_points(laboratory, page, masses, elements, steps)
     many_cables(laboratory, page, cables, per_cable, steps)

@@ -1,10 +1,10 @@
-"""Single chains: the free fall, sizes against the hand-written chain, a million elements, memory."""
+"""Measures single chains: the free fall, sizes beside the hand-written chain, a million elements, memory."""
 from . import scenes
 from .runs import RunFailed, Samples, number
 
 PETSC_LU = ("-ksp_type", "preonly", "-pc_type", "lu", "-pc_factor_mat_ordering_type", "natural")
 STEP = 1e-3
-# Each phase's events, the first kind that took any time counts; those of PETSc serve where cablenet has none.
+# The events of each phase.  The first kind of events that took any time counts: PETSc's serve where cablenet has none.
 PHASES = {
     "residual": (("CableResidual",), ("SNESFunctionEval",)),
     "tangent": (("CableTangent",), ("SNESJacobianEval",)),
@@ -31,7 +31,7 @@ def free_fall(laboratory, page):
 
 
 def phases(stepping):
-    """ns per unknown and Newton iteration by phase; events that are not in the log count 0."""
+    """{phase: ns per unknown and Newton iteration}.  Events that are not in the log count 0."""
     events = stepping.events()
     seconds = {}
     for phase, kinds in PHASES.items():
@@ -74,7 +74,8 @@ def one_size(laboratory, page, elements, steps):
 
 
 def sizes(laboratory, page, counts):
-    """`counts`: {elements: steps}; the target is for the largest up to 1e5, the others are held against it."""
+    """@param counts  {elements: steps}.  The target is for the largest chain of at most 1e5 elements, to which the
+    others are compared."""
     page.heading("2. Chains, step 1e-3 s; CPU of whole steps, ns per unknown and Newton iteration")
     rows, splits, units = [], {}, {}
     for elements, steps in counts.items():

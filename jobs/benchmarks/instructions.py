@@ -1,4 +1,4 @@
-"""Instructions by callgrind: a figure that a busy machine does not disturb."""
+"""Counts instructions by callgrind, because a busy machine does not disturb that number."""
 import re
 import shutil
 
@@ -9,7 +9,7 @@ SCHEMES = {"energy_momentum": {"scheme": "energy_momentum"},
 
 
 def collected(laboratory, scene, steps):
-    """Instructions of a whole run."""
+    """The number of instructions of a whole run."""
     out = laboratory.folder / "callgrind.out"
     tool = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}"]
     laboratory.execute([*tool, *laboratory.command(scene, "-ts_max_steps", steps)])

@@ -1,4 +1,4 @@
-"""Arrays and nets, on one rank and on more."""
+"""Measures arrays and nets, on one rank and on more."""
 from . import scenes
 from .runs import RunFailed, Samples, number
 
@@ -9,7 +9,7 @@ RANKS = (1, 2, 3, 4, 7)
 
 
 def two_ranks(laboratory, page, counts):
-    """`counts`: {elements: (steps, target)}"""
+    """@param counts  {elements: (steps, target for the time of one rank over that of two)}"""
     page.heading(f"3. Arrays with {scenes.BRANCHES} branches on two ranks; wall time of a step")
     rows = []
     for elements, (steps, limit) in counts.items():
@@ -49,13 +49,13 @@ def arrays(laboratory, page, counts):
 
 
 def factored(stepping):
-    """MUMPS alone, s per step."""
+    """The time of MUMPS alone [s per step]."""
     events = stepping.events()
     return sum(events.get(name, 0) for name in ("MatLUFactorSym", "MatLUFactorNum", "MatSolve")) / stepping.steps
 
 
 def net_runs(laboratory, page, scene, steps, ranks):
-    """@return {kind: runs}, made in turns; a kind that fails is left out"""
+    """@return {kind of solver: runs}.  The kinds run in turns, and one that fails is left out."""
     runs = {kind: [] for kind in NET_SOLVERS}
     for _ in range(min(3, laboratory.repetitions)):
         for kind in list(runs):

@@ -1,9 +1,9 @@
-"""The page that is printed: Markdown tables, and the list of targets at its end."""
+"""The page that is printed has Markdown tables, and the list of targets at its end."""
 from .runs import number
 
 
 class Page:
-    """Prints at once what it is given, and keeps it for a file."""
+    """Prints at once what it is given, and keeps it to write it to a file."""
 
     def __init__(self):
         self.lines, self.targets = [], []
@@ -24,7 +24,7 @@ class Page:
             self.write(line)
 
     def target(self, name, value, limit, unit="", at_least=False):
-        """Notes whether `value` keeps to `limit`, and says what it should be."""
+        """Notes whether `value` keeps to `limit`.  @return the limit as text"""
         met = value >= limit if at_least else value <= limit
         text = f"{'>=' if at_least else '<='} {number(limit)}{unit}"
         self.targets.append((name, f"{number(value)}{unit}", text, "met" if met else "not met"))

@@ -1,4 +1,4 @@
-"""Runs of the programs, and what is read from them."""
+"""Runs the programs, and reads their results."""
 import csv
 import json
 import shutil
@@ -10,7 +10,7 @@ import yaml
 
 
 class RunFailed(Exception):
-    """A run that ended badly or took too long; its section's figure is left out."""
+    """A run ended badly or took too long.  The page leaves its figure out."""
 
 
 class Samples:
@@ -36,30 +36,30 @@ class Samples:
 
 
 def number(value, digits=3):
-    """Rounded to so many digits, without an exponent."""
+    """The value as text with this many significant digits, without an exponent."""
     if value != value:
         return "-"
     return f"{float(f'{value:.{digits}g}'):,.10g}"
 
 
 class Run:
-    """A finished run: what run.yaml says, and the wall time of the whole process."""
+    """A finished run: run.yaml as a dict, the wall time of the whole process [s], and {event: seconds}."""
 
     def __init__(self, report, wall, events):
         self.report, self.wall, self.events = report, wall, events
 
     def clock(self, kind):
-        """Seconds by phase; `kind`: cpu, of the busiest rank, or wall."""
+        """{phase: seconds}.  @param kind  "cpu" for the CPU time of the busiest rank, or "wall" """
         return {phase: float(seconds) for phase, seconds in self.report[f"{kind}_seconds"].items()}
 
     @property
     def memory(self):
-        """Bytes at the peak, of all ranks."""
+        """The peak memory of all ranks together [bytes]."""
         return float(self.report["peak_memory_MB"]["all_ranks"]) * 2**20
 
 
 class Stepping:
-    """A long run minus a short one: steps alone, without what is done once."""
+    """A long run minus a short one: the cost of steps, without that of what a run does once."""
 
     def __init__(self, short, long):
         self.short, self.long = short, long
@@ -76,7 +76,7 @@ class Stepping:
         return self.seconds(kind) / self.steps
 
     def per_unknown_iteration(self, seconds):
-        """In ns."""
+        """`seconds` per unknown and Newton iteration [ns]."""
         return 1e9 * seconds / (self.newton * self.unknowns)
 
     def events(self):
@@ -84,7 +84,7 @@ class Stepping:
 
 
 def read_events(path):
-    """{event: seconds} of a -log_view table: the slowest rank's, all stages together."""
+    """{event: seconds} of a -log_view table, on the slowest rank and in all stages together."""
     by_rank = {}
     with open(path, encoding="utf-8", newline="") as file:
         for row in csv.DictReader(file):
@@ -97,14 +97,14 @@ def read_events(path):
 
 
 class Laboratory:
-    """Where runs are made: a temporary folder, the programs, how often, how long."""
+    """Makes runs of the programs in a temporary folder, `repetitions` times, for at most `limit` seconds each."""
 
     def __init__(self, program, yardstick, folder, repetitions, limit):
         self.program, self.yardstick, self.folder = program, yardstick, folder
         self.repetitions, self.limit = repetitions, limit
 
     def execute(self, command):
-        """@return what it printed, and the wall time [s]"""
+        """@return the finished process, with what it printed, and the wall time [s]"""
         started = time.monotonic()
         try:
             done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, timeout=self.limit)
@@ -116,14 +116,14 @@ class Laboratory:
         return done, time.monotonic() - started
 
     def command(self, scene, *options):
-        """The scene is written, an older result removed."""
+        """Writes the scene and removes an older result.  @return the command that runs the scene"""
         path, results = self.folder / "scene.yaml", self.folder / "results"
         path.write_text(json.dumps(scene), encoding="utf-8")   # JSON is YAML
         shutil.rmtree(results, ignore_errors=True)
         return [str(self.program), "run", str(path), "-o", str(results), *map(str, options)]
 
     def run(self, scene, *options, ranks=1, steps=None, events=False):
-        """@param steps -ts_max_steps; events: with -log_view"""
+        """@param steps  the run ends after so many   @param events  whether to read events from -log_view"""
         log = self.folder / "events.csv"
         more = [*options]
         more += ["-ts_max_steps", steps] if steps else []
@@ -135,11 +135,11 @@ class Laboratory:
         return Run(report, wall, read_events(log) if events else {})
 
     def stepping(self, scene, steps, *options, **keywords):
-        """`steps` steps after the first."""
+        """The cost of `steps` steps after the first step, as a Stepping."""
         return Stepping(*(self.run(scene, *options, steps=count, **keywords) for count in (1, 1 + steps)))
 
     def chain(self, elements, step, steps, length):
-        """The yardstick's figures, by name."""
+        """The figures of the hand-written chain, {name: text}."""
         command = [str(self.yardstick), elements, step, steps, 0, length]
         done, _ = self.execute(list(map(str, command)))
         return dict(pair.split("=") for pair in done.stdout.split())

@@ -1,17 +1,17 @@
-"""What a Newton iteration costs on any number of ranks: a model from 1 to 4 ranks' work, and what it predicts."""
+"""A model of the cost of a Newton iteration on many ranks, fitted to the work of 1 to 4 ranks, and its predictions."""
 import numpy
 
 from . import scenes
 from .runs import Samples, number
 
-# Assumed of a cluster's network: a message between nodes of it, and the bandwidth of one.
+# Assumed of a cluster's network: the time of a message between two machines [s], and a machine's bandwidth [byte/s].
 MESSAGE, BANDWIDTH = 2e-6, 10e9
-# Sums over all ranks in an iteration: the interface and two of norms.
+# The number of sums over all ranks in an iteration: one for the interface and two for norms.
 SUMS = 3
 
 
 def parts(laboratory, nodes, branches, counts):
-    """@return yardstick_parts' figures for each number of parts"""
+    """@return the figures of yardstick_parts for each number of parts, as {name: value}"""
     done, _ = laboratory.execute([str(laboratory.program.parent / "yardstick_parts"), str(nodes), str(branches),
                                   *map(str, counts)])
     return [{key: float(value) for key, value in (pair.split("=") for pair in line.split())}
@@ -19,7 +19,7 @@ def parts(laboratory, nodes, branches, counts):
 
 
 def elimination(laboratory, page, sizes):
-    """@return seconds for a node, and for each further block product"""
+    """@return the time of a node, and of each block product beyond the node's first [s]"""
     page.write("\nFactoring and solving of the part that costs most, on one core:\n")
     rows, work, seconds = [], [], []
     for nodes, branches in sizes:
@@ -39,7 +39,8 @@ def elimination(laboratory, page, sizes):
 
 
 def iterations(laboratory, page, counts):
-    """@return seconds for a node in the largest array, and for an iteration's waiting on two ranks in the smallest"""
+    """@return the time of a node in the largest array, and the time that an iteration in the smallest array waits on
+    two ranks [s]"""
     page.write("\nWhole iterations, wall time:\n")
     rows, times = [], {}
     for elements, steps in counts.items():
@@ -54,7 +55,7 @@ def iterations(laboratory, page, counts):
 
 
 def predict(page, found, elements, node, further, waiting):
-    """A row for `elements` from the parts of a smaller array."""
+    """A table row with the prediction for `elements` elements, from the parts of a smaller array."""
     ranks, interface = found["parts"], found["interface_nodes"]
     share = elements / ranks
     own = share * (node + (found["products_per_node"] - 1) * further)
@@ -67,8 +68,9 @@ def predict(page, found, elements, node, further, waiting):
 
 
 def model(laboratory, page, counts, sizes, large, elements):
-    """@param counts  {elements: steps} of real runs   @param sizes  (nodes, branches) whose parts are measured
-    @param large  (nodes, branches, parts) that predictions take their interfaces from"""
+    """@param counts  {elements: steps} of real runs
+    @param sizes  (nodes, branches) of the arrays whose parts are measured
+    @param large  (nodes, branches, numbers of parts) of the array whose interfaces the predictions use"""
     page.heading("8. The cost of a Newton iteration on many ranks")
     node, waiting = iterations(laboratory, page, counts)
     _, further = elimination(laboratory, page, sizes)

@@ -1,16 +1,16 @@
-"""The scenes that are measured; dicts as the file would have them.  They end late: runs are cut with -ts_max_steps."""
+"""The scenes that are measured, as dicts with the keys of a scene file.  They end late: -ts_max_steps cuts runs."""
 import math
 
-SPACING = 1.713 / 24   # m, an element of the free fall
+SPACING = 1.713 / 24   # length of an element in examples/free_fall [m]
 STEEL = {"area": 1.962e-5, "density": 7800, "youngs_modulus": 53e9}
 BRANCHES = 100
 ROPE = {"mass_per_length": 0.1, "axial_stiffness": 1.0e5}
 BODY = {"mass": 1, "inertia": [0.01, 0.02, 0.02]}
-ARM = 0.1   # m, from a body's centre to where a cable is attached
+ARM = 0.1   # from a body's centre to an attachment [m]
 
 
 def chain(elements, step, end=None, interval=None, scheme=None):
-    """The cable of examples/free_fall, longer with more elements, so that elements stay alike."""
+    """The cable of examples/free_fall.  It is longer if it has more elements, so that all elements are alike."""
     length = SPACING * elements
     end = end or 1e4 * step
     return {
@@ -52,7 +52,7 @@ def array(elements):
 
 
 def net(meshes):
-    """A square net of twine, held at its top edge and let go with one side lifted, as examples/net."""
+    """A square net of twine that is held at its top edge and let go with one side lifted, as in examples/net."""
     side = 0.2 * meshes
     corners = [[0, 0, 0], [side, 0, 0], [side, side, 0], [0, 0.8 * side, -0.6 * side]]
     return {
@@ -65,7 +65,7 @@ def net(meshes):
 
 
 def falling(points, bodies, cables):
-    """Ropes, point masses and bodies that are let go; without bodies there is no such key."""
+    """A scene of ropes, point masses and bodies that are let go."""
     return {
         "environment": {"gravity": 9.81},
         "cable_types": {"rope": ROPE},
@@ -82,7 +82,8 @@ def rope(start, to, elements):
 
 
 def loaded_chain(masses, elements, rigid):
-    """A level chain of cables of 1 m with a mass at each one's end: a body that the next goes on from, or a point."""
+    """A level chain of cables of 1 m, each of which ends at a mass.  The mass is a body or a point, from which the next
+    cable goes on."""
     points, bodies, cables = {"pin": {"position": [0, 0, 0], "motion": "fixed"}}, {}, {}
     start = "pin"
     for i in range(masses):

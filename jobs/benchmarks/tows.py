@@ -1,18 +1,19 @@
-"""A towed cable of published size in water: CPU of a simulated second at a stated accuracy, straight and in a turn."""
+"""Measures a towed cable of published size in water, straight and in a turn: the CPU time of a simulated second at a
+stated accuracy."""
 import csv
 import math
 
 from .runs import RunFailed, Samples, number
 
-SPEED, RADIUS, STRAIGHT = 3.0, 300.0, 60.0   # m/s, m, s before the turn
+SPEED, RADIUS, STRAIGHT = 3.0, 300.0, 60.0   # speed [m/s], the turn's radius [m], time before the turn [s]
 LENGTH = 1000.0
 TURNED = STRAIGHT + math.pi * RADIUS / SPEED
 END = 600.0
-ACCURACY = 1e-3   # of the length, and of the tow force
+ACCURACY = 1e-3   # of the tail's position over the length, and of the tow force over its mean
 
 
 def half_turn():
-    """Straight along x, half a circle to the left, straight back."""
+    """The ship goes straight along x, in half a circle to the left, and straight back."""
     rate = SPEED / RADIUS
     turning, back = f"step(t - {STRAIGHT})", f"step(t - {TURNED!r})"
     start = SPEED * STRAIGHT
@@ -42,7 +43,7 @@ def history(laboratory):
 
 
 def errors(rows, exact):
-    """Largest over the run: the tail's position over the length, the tow force over its mean."""
+    """The largest errors in a run: of the tail's position over the length, and of the tow force over its mean."""
     mean = sum(row["cable.tension_from"] for row in exact) / len(exact)
     tail = max(math.dist([a[f"tail.{c}"] for c in "xyz"], [b[f"tail.{c}"] for c in "xyz"])
                for a, b in zip(rows, exact, strict=True))
@@ -51,7 +52,8 @@ def errors(rows, exact):
 
 
 def tows(laboratory, page, targets, finest, step, interval):
-    """@param targets  {elements: CPU of a simulated second [s]}   @param finest  (elements, step) that tell the errors"""
+    """@param targets  {elements: CPU time of a simulated second [s]}
+    @param finest  (elements, step) of the run to which the others are compared"""
     page.heading(f"10. A towed cable of {LENGTH:.0f} m in water, {SPEED} m/s, step {step} s, energy_momentum")
     rows = []
     for turns in (False, True):

@@ -7,7 +7,7 @@
 namespace cablenet::bodies {
 namespace {
 
-/// The wetted fraction of a sphere, and its derivative by the sphere's middle.
+/// The wetted fraction of a sphere, and the fraction's derivative by the place of the sphere's middle.
 struct Immersion {
   double fraction = 1;
   Vector3 by_x = Vector3::Zero();   ///< [1/m]
@@ -22,7 +22,9 @@ Immersion immersion(const environment::Fluid& fluid, double t, double radius, co
   return {wet.fraction, wet.by_depth * (surface.slope - Vector3::UnitZ())};
 }
 
-/// The derivatives of a load fully under water: by x through u and w alone.
+/// Sets the derivatives of the load wet.fraction * under_water.
+/// @param under_water  the load of a fully wet object; it depends on x through u and w alone
+/// @param by_u, by_w   the derivatives of under_water
 void set_slopes(const Immersion& wet, const Matrix3& by_u, const Matrix3& by_w, const environment::WaterMotion& water,
                 const Vector3& under_water, PointLoad& load) {
   load.by_v = -wet.fraction * by_u;

@@ -9,11 +9,12 @@
 namespace cablenet::bodies {
 namespace {
 
+/// A function of u, and its derivative by u.
 struct Slope {
-  double value, by;   ///< its derivative by u
+  double value, by;
 };
 
-/// 4 atan(x/4)/x by u = x^2; the series is exact to rounding where it is used.
+/// 4 atan(x/4)/x as a function of u = x^2.  The series is exact to rounding where it is used.
 Slope arc_by_tangent(double u) {
   const double z = u / 16;
   if (z < 0.01) {
@@ -28,13 +29,15 @@ Slope arc_by_tangent(double u) {
   return {arc, (1 / (1 + z) - arc) / (2 * u)};
 }
 
-/// How a conserving step turns: the rate at the middle of q0 and q1 is w = 4 tan(dt |W|/4)/(dt |W|) W.
+/// The turn of a conserving step, R1 = R0 exp(dt W).  The middle (q0 + q1)/2 and the rate (q1 - q0)/dt give an angular
+/// velocity w that is longer than W: w = 4 tan(dt |W|/4)/(dt |W|) W.  A force on the lever (R0 + R1) r/2 times `lever`
+/// does the same work as at r.
 struct MeanTurn {
-  Matrix34 rates;
+  Matrix34 rates;   ///< at the middle
   Vector3 w;
   double u;      ///< dt^2 |w|^2
-  Slope arc;     ///< W = arc w, R1 = R0 exp(dt W)
-  Slope lever;   ///< tan(dt |W|/2)/(dt |W|/2): on a lever (R0 + R1) r/2 a force then does the work that it does at r
+  Slope arc;     ///< W = arc w
+  Slope lever;   ///< tan(dt |W|/2)/(dt |W|/2)
 };
 
 MeanTurn mean_turn(double dt, const Vector4& middle, const Vector4& rate) {
@@ -48,7 +51,7 @@ MeanTurn mean_turn(double dt, const Vector4& middle, const Vector4& rate) {
   return turn;
 }
 
-/// dR/dq_k / 2, of which the first part is that of |q|^2 R.
+/// Half of dR/dq_k = M - own R, where M = 1/|q|^2 d(|q|^2 R)/dq_k.
 /// @param by_square  2/|q|^2
 template <int k>
 Matrix3 half_slope(const Vector4& q, double by_square, const Matrix3& R) {
@@ -62,13 +65,13 @@ Matrix3 half_slope(const Vector4& q, double by_square, const Matrix3& R) {
   return 0.5 * (M - own * R);
 }
 
-/// What values and derivatives share.
+/// The quantities that both the values and the derivatives of a conserving step need.
 struct Values {
   Vector4 q1;
   Matrix3 R1;
   MeanTurn turn;
-  Vector3 w1, momentum1, torque;   ///< momentum1: body axes; torque: what own is the turn's share of
-  double gauge, excess;            ///< gauge (|q1|^2 - 1) q_a/|q_a|^2 keeps |q1| at 1
+  Vector3 w1, momentum1, torque;   ///< momentum1 = I w1, body axes; own = turn^T torque + gauge force, world axes
+  double gauge, excess;            ///< the gauge force gauge (|q1|^2 - 1) q_a/|q_a|^2 keeps |q1| at 1
 };
 
 Values evaluate_values(const Properties& body, const Start& start, double dt, const RotationState& stage,
@@ -104,7 +107,7 @@ Values evaluate_values(const Properties& body, const Start& start, double dt, co
   const Eigen::RowVector4d by_u = 2 * dt * dt * v.turn.w.transpose() * by_w;
   const Matrix34 by_w1 = 2 / dt * (v.turn.arc.value * by_w + v.turn.arc.by * v.turn.w * by_u);
   const Matrix34 by_momentum = (v.R1 * body.inertia) * by_w1;
-  // The end's attitude follows the stage's twice as fast.
+  // The unknown is q_a = (q0 + q1)/2, so q1 changes twice as fast.
   const Vector3 w1 = 4 / dt * v.w1, swept = 4 / dt * v.momentum1 - 2 * body.torque;
   const auto differentiate = [&]<int k>() {
     const Matrix3 half = half_slope<k>(v.q1, by_end_square, v.R1);

@@ -3,8 +3,8 @@
 
 namespace cablenet::bodies {
 
-/// evaluate() for a conserving step, differentiated by hand: it is what every step of energy_momentum does for every
-/// body.
+/// evaluate() for a conserving step.  Its derivatives are written out by hand, because every step of the
+/// energy-momentum scheme takes them for every body.
 void evaluate_conserving(const Properties&, const Start&, double dt, const RotationState& stage, const Shift* shift,
                          bool with_velocity, StageMotion& motion, StageForces& forces);
 

@@ -10,6 +10,7 @@
 namespace cablenet::bodies {
 namespace {
 
+/// The values of StageMotion and StageForces.  Their number type S may carry derivatives.
 template <class S, int n>
 struct Maps {
   Mat3<S> position, velocity, acceleration, lever;
@@ -22,7 +23,7 @@ struct AttitudeMotion {
   Unknowns<S, n> y, dy, ddy;
 };
 
-/// Of the gauge's frequency by the step.
+/// The gauge's frequency s times the step.
 constexpr double gauge_rate = 0.1;
 
 double value_of(double number) { return number; }
@@ -33,7 +34,7 @@ double value_of(const Eigen::AutoDiffScalar<Derivatives>& number) {
 
 bool has_drag(const Properties& body) { return (body.linear_drag + body.quadratic_drag).sum() > 0; }
 
-/// To the torque that keeps the motion up: what the water takes.
+/// Adds the drag to the torque that the motion needs.
 template <class S>
 void add_drag(const Properties& body, const Vec3<S>& w, Vec3<S>& torque) {
   for (int i = 0; i < 3; ++i) {
@@ -134,7 +135,7 @@ void evaluate_with(const Properties& body, const Start& start, const StepRule& r
   forces.shift_x = shift->x;
 }
 
-/// Of roll, pitch, yaw; continuous in them.
+/// The quaternion of roll, pitch and yaw.  Its sign is continuous in them.
 Quaternion by_angles(const Vector3& y) {
   using Turn = Eigen::AngleAxisd;
   return Turn(y(2), Vector3::UnitZ()) * Turn(y(1), Vector3::UnitY()) * Turn(y(0), Vector3::UnitX());
@@ -156,7 +157,7 @@ RotationState rotation_state(Rotation rotation, const Quaternion& attitude, cons
   if (rotation == Rotation::euler) {
     const Matrix3 R = attitude.toRotationMatrix();
     Vector3 y(std::atan2(R(2, 1), R(2, 2)), -std::asin(std::clamp(R(2, 0), -1.0, 1.0)), std::atan2(R(1, 0), R(0, 0)));
-    // One turn of yaw changes the quaternion's sign alone.
+    // A whole turn of yaw changes nothing but the quaternion's sign, which has to agree with the attitude's.
     if (by_angles(y).dot(attitude) < 0) y(2) += 2 * std::numbers::pi;
     state.y.head<3>() = y;
     state.dy.head<3>() = EulerRotation::rates<double>(y).inverse() * w;
@@ -205,7 +206,7 @@ void evaluate(const Properties& body, const Start& start, const StepRule& rule, 
 Matrix4 turn_slope(Rotation rotation, const StageForces& forces, const Vector3& T) {
   Matrix4 slope = Matrix4::Zero();
   if (rotation == Rotation::quaternion) {
-    // G(q)^T T = slope q, with which turn^T T = 2/|q|^2 G(q)^T T.
+    // turn^T T = 2/|q|^2 G(q)^T T, where G is linear in q: G(q)^T T = slope q.
     slope << 0, -T(0), -T(1), -T(2), T(0), 0, -T(2), T(1), T(1), T(2), 0, -T(0), T(2), -T(1), T(0), 0;
     const double s = 2 * forces.shift_x / forces.y.squaredNorm();
     return s * (slope - (forces.turn.transpose() * T) * forces.y.transpose());

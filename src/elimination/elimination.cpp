@@ -8,7 +8,8 @@
 namespace cablenet::elimination {
 namespace {
 
-/// Nodes of a chain: there are more streams through memory than processors foresee, so they are told.
+/// An elimination fetches values so many nodes of a chain ahead, because it reads more streams of memory than a
+/// processor follows by itself.
 constexpr std::ptrdiff_t ahead = 20;
 
 void fetch(const double* values, int lines) {

@@ -5,11 +5,11 @@
 
 #include "cablenet/elimination/elimination.hpp"
 
-/// Row-major pivot blocks of any size, factored with row exchanges.  A body's have coordinates of different units, and
-/// need not have a positive diagonal.
+/// Operations on row-major pivot blocks of any size, which are factored with row exchanges.  A body's pivot needs them:
+/// its unknowns have different units, and its diagonal need not be positive.
 namespace cablenet::elimination {
 
-/// The largest of each column.
+/// The largest absolute value of each column.
 template <class N>
 void column_sizes(const double* a, double* size, N n) {
   for (int c = 0; c < n; ++c) size[c] = 0;
@@ -17,10 +17,10 @@ void column_sizes(const double* a, double* size, N n) {
     for (int c = 0; c < n; ++c) size[c] = std::fabs(a[r * n + c]) > size[c] ? std::fabs(a[r * n + c]) : size[c];
 }
 
-/// In place P A = L U with unit L; the reciprocals of the pivots stand on the diagonal.  A pivot is held against its
-/// column, for a body's unknowns have different units.
+/// Factors A in place: P A = L U with unit L.  The reciprocals of the pivots stand on the diagonal.  A pivot is
+/// compared with the largest entry of its column, because a body's unknowns have different units.
 /// @param origin  gets the row of A that became row k
-/// @returns the sign of A's determinant, 0 if A is singular to rounding.
+/// @returns the sign of A's determinant, or 0 if A is singular to rounding
 template <class N>
 int factor_block(double* a, int* origin, N n) {
   double size[largest_block];
@@ -31,7 +31,7 @@ int factor_block(double* a, int* origin, N n) {
     int best = k;
     for (int r = k + 1; r < n; ++r) best = std::fabs(a[r * n + k]) > std::fabs(a[best * n + k]) ? r : best;
     const double pivot = a[best * n + k];
-    // Written so that nan counts as zero.
+    // The negated comparison makes nan count as zero.
     if (!(std::fabs(pivot) > std::numeric_limits<double>::epsilon() * size[k])) return 0;
     if ((pivot < 0) != (best != k)) sign = -sign;
     if (best != k) {
@@ -47,7 +47,7 @@ int factor_block(double* a, int* origin, N n) {
   return sign;
 }
 
-/// w A^-1 for each row w, all rows at a time.
+/// Replaces each row w by w A^-1, all rows at a time.
 template <class Rows, class N>
 void divide_right(double* w, const double* lu, const int* origin, Rows rows, N n) {
   double y[largest_block][largest_block];
@@ -65,7 +65,7 @@ void divide_right(double* w, const double* lu, const int* origin, Rows rows, N n
   }
 }
 
-/// A^-1 w.
+/// Replaces w by A^-1 w.
 template <class N>
 void divide_left(double* w, const double* lu, const int* origin, N n) {
   double y[largest_block];

@@ -5,11 +5,11 @@
 #include "sized_kernels.hpp"
 #include "uniform_kernels.hpp"
 
-/// The steps at which not all blocks are 3x3.
+/// This file has the steps of an elimination at which not all blocks are 3x3.
 namespace cablenet::elimination {
 namespace {
 
-/// @returns the number of negative pivots, -1 if singular.
+/// @returns the number of negative pivots as in Pivots::negative, or -1 if the pivot block is singular
 int factor_pivot(double* pivot, int*, Size<3>) { return factor_block(pivot); }
 template <class Own>
 int factor_pivot(double* pivot, int* origin, Own own) {

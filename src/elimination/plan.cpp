@@ -8,9 +8,11 @@
 namespace cablenet::elimination {
 namespace {
 
-constexpr double products_in_block = 27;   // of two 3x3 blocks
+/// The number of multiplications in a product of two 3x3 blocks.
+constexpr double products_in_block = 27;
 
-/// Lays the plan down; later neighbours come from the elimination tree: a block hands its own to the first of them.
+/// Lays the plan down.  It finds later neighbours along the elimination tree: a block passes its later neighbours on to
+/// the first of them.
 class Planner {
 public:
   Planner(const BlockGraph& graph, bool symmetric) : graph_(graph) {
@@ -33,7 +35,7 @@ private:
   void collect(int k, std::vector<int>& found);
   void lay_out_values();
   void lay_out_updates(int k);
-  /// Where a block's values begin, and its number in the order of factoring; -1 if both are kept.
+  /// Where a block's values begin, and its number in the order of factoring; -1 if its row and column are both kept.
   struct Found {
     std::int64_t offset, number;
   };

@@ -3,13 +3,13 @@
 
 #include "cablenet/elimination/elimination.hpp"
 
-/// Row-major blocks of any size.  Sizes are integers, or Size<n> where the compiler shall know them.
+/// Operations on row-major blocks of any size.  A size is an int, or a Size<n> where the compiler should know it.
 namespace cablenet::elimination {
 
 template <int n>
 using Size = std::integral_constant<int, n>;
 
-/// visit(size), with those of nodes and bodies as Size<n>.
+/// Calls visit(size), where the sizes that nodes and bodies have are passed as Size<n>.
 template <class Visit>
 void with_size(int size, Visit&& visit) {
   switch (size) {

@@ -4,7 +4,7 @@
 
 #include "cablenet/elimination/elimination.hpp"
 
-/// Row-major 3x3 blocks.
+/// Operations on row-major 3x3 blocks.
 namespace cablenet::elimination {
 
 inline void load_row(double* row, const double* from, bool touched) {
@@ -29,8 +29,8 @@ inline void load_block(double* block, const BlockSource& source, const Arrays& a
   load_row(block + 6, from + 2 * stride, source.touched);
 }
 
-/// In place L U with unit L; the reciprocals of the pivots stand on the diagonal.
-/// @returns the number of negative pivots, -1 if one is zero to rounding.
+/// Factors A in place: A = L U with unit L.  The reciprocals of the pivots stand on the diagonal.
+/// @returns the number of negative pivots, or -1 if one of them is zero to rounding
 inline int factor_block(double* a) {
   const double largest = std::fmax(std::fmax(std::fabs(a[0]), std::fabs(a[4])), std::fabs(a[8]));
   const double least = std::numeric_limits<double>::epsilon() * largest;
@@ -44,12 +44,12 @@ inline int factor_block(double* a) {
   a[7] = (a[7] - a[6] * a[1]) * a[4];
   const double p2 = a[8] - a[6] * a[2] - a[7] * a[5];
   a[8] = 1 / p2;
-  // Written so that nan counts as zero.
+  // These comparisons are false for nan, which thus counts as zero.
   const bool regular = std::fabs(p0) > least && std::fabs(p1) > least && std::fabs(p2) > least;
   return regular ? (p0 < 0) + (p1 < 0) + (p2 < 0) : -1;
 }
 
-/// w D^-1 for each row w.
+/// Replaces each row w by w D^-1.
 inline void divide_right(double* rows, const double* d, int count = 3) {
   for (int r = 0; r < count; ++r, rows += 3) {
     const double w0 = rows[0] * d[0];
@@ -61,7 +61,7 @@ inline void divide_right(double* rows, const double* d, int count = 3) {
   }
 }
 
-/// D^-1 w.
+/// Replaces w by D^-1 w.
 inline void divide_left(double* w, const double* d) {
   const double y1 = w[1] - d[3] * w[0];
   const double y2 = w[2] - d[6] * w[0] - d[7] * y1;

@@ -6,19 +6,20 @@
 namespace cablenet::environment {
 namespace {
 
-/// cosh(k (z' + depth))/sinh(k depth), sinh(...)/sinh(...), and k where they vary with z'.
+/// A wave's motion decays with depth by the factors horizontal = cosh(k (z' + depth))/sinh(k depth) and
+/// vertical = sinh(k (z' + depth))/sinh(k depth).  by_z is k, or 0 where the factors do not vary with z.
 struct Decay {
   double horizontal, vertical, by_z;
 };
 
-/// Beyond this many 1/k a wave's part is below the rounding of what it is at the surface.
+/// At a depth of this many 1/k a wave's motion is e^-40 = 4e-18 of its motion at the surface: less than rounding.
 constexpr double negligible = 40;
 
 Decay decay(double k, double depth, double z) {
   const double below = std::clamp(z, -depth, 0.0), fall = std::exp(k * below), by_z = z == below && z < 0 ? k : 0;
   const double twice = 2 * k * (below + depth);
   if (twice > negligible) return {fall, fall, by_z};
-  // sinh's difference of exponentials would lose digits in shallow water.
+  // In shallow water sinh as a difference of exponentials would lose digits; expm1 keeps them.
   const double scale = -fall / std::expm1(-2 * k * depth), difference = -std::expm1(-twice);
   return {scale * (2 - difference), scale * difference, by_z};
 }
@@ -27,7 +28,8 @@ double angle(const Wave& wave, const Vector3& x, double t) {
   return wave.number * wave.direction.dot(x.head<2>()) - wave.frequency * t + wave.phase;
 }
 
-/// (horizontal c along the wave, vertical s upwards), c' = -s and s' = c by the wave's angle.
+/// Adds a vector, decay.horizontal c along the wave and decay.vertical s upwards, and its derivative by the place.  The
+/// wave's angle theta moves it along an orbit: dc/dtheta = -s and ds/dtheta = c.
 void add_orbit(const Wave& wave, const Decay& decay, double c, double s, Vector3& value, Matrix3& slope) {
   const Eigen::Vector2d along = decay.horizontal * wave.direction, by_x = wave.number * wave.direction;
   value.head<2>() += c * along;
@@ -52,11 +54,11 @@ void add_current(const std::vector<CurrentLayer>& current, double z, WaterMotion
   motion.velocity += (z - below.z) * motion.velocity_slope.col(2);
 }
 
-/// s^2 (3 - 2 s).
 double smooth_step(double s) { return s * s * (3 - 2 * s); }
 
-/// The smooth step's mean over s - h/2 .. s + h/2, by_depth and by_extent being by s and h.
-/// @pre s <= 1/2: where a difference of two nearly equal numbers would be in need, the piece is long
+/// The mean of the smooth step over s - h/2 .. s + h/2, with by_depth the derivative by s and by_extent the one by h.
+/// @pre s <= 1/2.  Differences of nearly equal numbers then occur for long pieces alone, and the division by h makes
+///      their rounding harmless.
 Wetness dry_half(double s, double h) {
   const double low = s - 0.5 * h, high = s + 0.5 * h;
   if (high <= 0) return {0, 0, 0};
@@ -72,7 +74,7 @@ Wetness dry_half(double s, double h) {
 
 double wave_number(double frequency, double depth, double gravity) {
   const double y = frequency * frequency * depth / gravity;
-  // Within 5 % everywhere: Eckart, Surface Waves on Water of Variable Depth (1951).
+  // Newton's method starts within 5 % everywhere: Eckart, Surface Waves on Water of Variable Depth (1951).
   double x = y / std::sqrt(std::tanh(y));
   for (int i = 0; i < 20; ++i) {
     const double tanh = std::tanh(x), step = (x * tanh - y) / (tanh + x * (1 - tanh * tanh));
@@ -109,7 +111,7 @@ SurfaceHeight surface_height(const Fluid& fluid, const Vector3& x, double t) {
 
 Wetness piece_wetness(double q, double h, double d) {
   Wetness wet = dry_half(0.5 - std::abs(q) / d, h / d);
-  // What is dry of a piece as far on the other side is wet of this one.
+  // The wet part of a piece below the surface is as large as the dry part of one as far above it.
   if (q > 0) wet = {1 - wet.fraction, wet.by_depth, -wet.by_extent};
   return {wet.fraction, wet.by_depth / d, wet.by_extent / d};
 }

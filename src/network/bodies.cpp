@@ -55,7 +55,8 @@ Vector3 three(const std::array<double, 6>& values, std::size_t first) {
   return {values[first], values[first + 1], values[first + 2]};
 }
 
-/// Added inertia turns with the body as its own does; buoyancy is a force at a carried node.
+/// Added inertia turns with the body, so it becomes part of the body's inertia.  Buoyancy becomes a force at the centre
+/// of buoyancy, which is a carried node unless it is the centre of gravity.
 void put_in_water(const scene::Body& from, double density, Body& body, Network& network) {
   const Vector3 linear = three(from.linear_drag, 0), quadratic = three(from.quadratic_drag, 0);
   const double radius = wetted_radius(from.volume, 2 / density * quadratic.maxCoeff());
@@ -72,7 +73,8 @@ void put_in_water(const scene::Body& from, double density, Body& body, Network& 
   network.wet_points.push_back({node, {density * from.volume, 0, 0, radius}});
 }
 
-/// The node at which cables on an attachment end: the body's own, a carried one, or one that a link ties to that.
+/// The node at which the cables of an attachment end.  It is the body's own node, a carried node, or a free node that a
+/// link ties to a carried one.
 SceneNode add_attachment(const scene::Body& from, const Vector3& offset, Body& body, Network& network) {
   const bool centred = offset.isZero(0);
   if (centred && body.properties.rotation == bodies::Rotation::none) return body.node;

@@ -6,10 +6,10 @@
 
 namespace cablenet::network {
 
-/// Per body and attachment of the scene: the node at which its cables end; none where no cable does.
+/// Per body and attachment of the scene: the node at which the attachment's cables end; none where no cable ends.
 using AttachmentNodes = std::vector<std::vector<SceneNode>>;
 
-/// Adds the scene's bodies, with a node for each and for every attachment in use.
+/// Adds the scene's bodies.  Each body gets a node, and nodes for the attachments that cables use.
 AttachmentNodes add_bodies(const scene::Scene& scene, Network& network);
 
 }   // namespace cablenet::network

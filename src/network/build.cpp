@@ -13,7 +13,7 @@
 namespace cablenet::network {
 namespace {
 
-/// Builds piece by piece; a tapped cable is laid before the cables that hang on it.
+/// Builds a network piece by piece.  A tapped cable is laid before the cables that branch from it.
 class Builder {
 public:
   explicit Builder(const scene::Scene& scene) : scene_(scene) {}
@@ -57,8 +57,8 @@ private:
   Network network_;
   std::vector<SceneNode> first_net_node_;
   std::vector<SceneNode> first_inner_node_;
-  std::vector<std::vector<double>> taps_;   ///< per cable, arc lengths
-  std::vector<std::vector<double>> arcs_;   ///< per cable, of its nodes; empty until laid
+  std::vector<std::vector<double>> taps_;   ///< per cable: arc lengths of its taps
+  std::vector<std::vector<double>> arcs_;   ///< per cable: arc lengths of its nodes; empty until the cable is laid
   Table<SceneNode, bool> prescribed_;
   AttachmentNodes attachment_nodes_;
 };
@@ -202,7 +202,8 @@ void Builder::place_cable(std::size_t index, const Vector3& a, const Vector3& b)
   for (int k = 1; k < cable.elements; ++k) network_.position[cable_node(index, k)] = points[at(k)];
 }
 
-/// Before any cable is laid, for a neighbour's nodes may be drawn with its ends' velocities.
+/// This has to come before any cable is laid: another cable at the same point may interpolate its nodes' velocities
+/// from the velocity that this cable gives the point.
 void Builder::set_end_velocities(std::size_t index) {
   const scene::Cable& cable = scene_.cables[index];
   if (cable.node_velocity.empty()) return;
@@ -220,7 +221,7 @@ void Builder::set_velocities(std::size_t index) {
         cable.node_velocity.empty() ? v0 + (v1 - v0) * (arcs[at(k)] / arcs.back()) : cable.node_velocity[at(k)];
 }
 
-/// A free end that drew no velocity of its own takes the cable's; a held one, and a tap's, keeps its own.
+/// A free point without a drawn velocity takes the cable's.  Prescribed points, taps and net nodes keep their own.
 void Builder::set_end_velocity(std::size_t index, const scene::CableEnd& end, const Vector3& velocity) {
   if (const auto* body = std::get_if<scene::BodyEnd>(&end)) return compare_velocity(index, *body, velocity);
   const auto* point = std::get_if<scene::PointEnd>(&end);

@@ -12,7 +12,8 @@
 namespace cablenet::network {
 namespace {
 
-constexpr double same_arc = 1e-9;   // of the cable's length: taps nearer than this share a node
+/// Taps that are nearer than this part of the cable's length share a node, so that rounding makes no tiny elements.
+constexpr double same_arc = 1e-9;
 
 std::vector<double> stretches_between(double L, std::vector<double>& breaks) {
   breaks.push_back(0);
@@ -26,7 +27,7 @@ std::vector<double> stretches_between(double L, std::vector<double>& breaks) {
   return stretches;
 }
 
-/// Largest remainders: in proportion to length, at least one each, `elements` in all.
+/// Distributes `elements` over the stretches in proportion to length, at least one each, by largest remainders.
 std::vector<int> share_out(const std::vector<double>& stretches, double L, int elements) {
   std::vector<int> count(stretches.size());
   std::vector<double> rest(stretches.size());
@@ -51,7 +52,7 @@ std::vector<int> share_out(const std::vector<double>& stretches, double L, int e
   return count;
 }
 
-/// u > 0 with sinh(u)/u = ratio > 1, by Newton on log(sinh(u)/u) from above.
+/// Solves sinh(u)/u = ratio > 1 for u > 0.  Newton's method on log(sinh(u)/u) starts above the solution.
 double catenary_parameter(double ratio) {
   double u = ratio < 3 ? std::sqrt(6 * (ratio - 1)) : std::log(2 * ratio) + std::log(std::log(2 * ratio));
   for (int i = 0; i < 60; ++i) {
@@ -64,8 +65,8 @@ double catenary_parameter(double ratio) {
   return u;
 }
 
-/// Ends (nearly) above one another: down and up again, the one leg bent towards x and the other towards y, so that no
-/// two nodes coincide.
+/// A point of a cable whose ends lie (nearly) above one another.  The cable goes down and up again.  One leg is bent
+/// towards x and the other towards y, so that no two nodes coincide.
 Vector3 hairpin_point(const Vector3& a, const Vector3& b, double L, double s) {
   const double down = 0.5 * (L - (b.z() - a.z()));
   const bool first_leg = s < down;

@@ -9,10 +9,11 @@
 namespace cablenet::network {
 namespace {
 
-/// Of the depth to which a cable sinks into the bed under its own weight: resting cables are past it.
+/// The smoothing over the depth to which a cable sinks into the bed under its own weight.  It is less than 1, so that a
+/// cable at rest lies where stiffness is constant.
 constexpr double smoothing_part = 0.2;
 
-/// Of a cable's diameter, where it has no weight.
+/// The least smoothing over the cable's diameter, for cables without weight.
 constexpr double least_smoothing = 1e-6;
 
 elements::CableInWater in_water(const scene::CableType& type, double density) {

@@ -9,13 +9,14 @@
 namespace cablenet::output {
 namespace {
 
-constexpr double thinnest_edge = 0.02;        // of the longest
-constexpr double same_moment = 1e-9;          // of the largest: what rounding makes of equal moments
-constexpr double density_of_point = 1000.0;   // [kg/m^3]
+constexpr double thinnest_edge = 0.02;        // over the longest edge: thinner boxes can hardly be seen
+constexpr double same_moment = 1e-9;          // over the largest moment: rounding makes equal moments differ by less
+constexpr double density_of_point = 1000.0;   // of water [kg/m^3]
 
 using Eigensystem = Eigen::SelfAdjointEigenSolver<Matrix3>;
 
-/// The part of `axis` along all principal axes of one moment: with equal moments single ones mean nothing.
+/// The part of `axis` along all principal axes that belong to `moment`.  Where moments are equal, a single one of their
+/// axes is arbitrary.
 Vector3 part_in_eigenspace(const Eigensystem& principal, double moment, const Vector3& axis) {
   const Vector3& moments = principal.eigenvalues();
   Vector3 part = Vector3::Zero();
@@ -26,7 +27,7 @@ Vector3 part_in_eigenspace(const Eigensystem& principal, double moment, const Ve
   return part;
 }
 
-/// The rotation R of largest tr(R^T M) (Kabsch).
+/// The rotation R with the largest tr(R^T M), by Kabsch's method.
 Matrix3 nearest_rotation(const Matrix3& m) {
   const Eigen::JacobiSVD<Matrix3> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Matrix3 u = svd.matrixU();
@@ -36,7 +37,7 @@ Matrix3 nearest_rotation(const Matrix3& m) {
 
 struct PrincipalAxes {
   Vector3 moments;
-  Matrix3 axes;   ///< the columns, in body axes
+  Matrix3 axes;   ///< the columns are the principal axes, in body axes
 };
 
 PrincipalAxes principal_axes(const Matrix3& inertia) {
@@ -52,7 +53,7 @@ PrincipalAxes principal_axes(const Matrix3& inertia) {
       parts.col(i) = part_in_eigenspace(principal, moments[i], Vector3::Unit(i));
     }
     const Matrix3 axes = nearest_rotation(parts);
-    // Not the trace of `axes`: where a part is nothing, its axis is none of the principal ones.
+    // The trace of `axes` would not do: where a part is zero, its column of `axes` is arbitrary.
     const double likeness = (axes.transpose() * parts).trace();
     if (likeness <= best_likeness) continue;
     best_likeness = likeness;

@@ -19,7 +19,7 @@ void Catalogue::add_frame(double time) {
 
 void Catalogue::close_segment() {
   ends_.push_back(frames_);
-  // In this order every frame that an .xmf lists is in result.h5 too, whenever the run is killed.
+  // In this order every frame that an .xmf lists is in result.h5 too, even if the run is killed in between.
   write_result();
   write_xdmf();
 }
@@ -27,7 +27,7 @@ void Catalogue::close_segment() {
 void Catalogue::write_result() const {
   const auto path = directory_ / "result.h5";
   const auto temporary = directory_ / "result.h5.tmp";
-  // MPI's file access, unlike the serial one, takes no lock, which some file servers refuse.
+  // HDF5's file access by MPI takes no lock, unlike its serial access.  Some file servers refuse locks.
   Hdf5File file(MPI_COMM_SELF, temporary);
   stamp(file, origin_);
   file.link("/mesh", "mesh.h5", "/mesh");
@@ -41,7 +41,7 @@ void Catalogue::write_result() const {
 }
 
 void Catalogue::write_xdmf() const {
-  // A mesh without cells is nothing that ParaView could show.
+  // ParaView cannot show a mesh without cells.
   if (totals_.elements > 0) replace_text(directory_ / "cables.xmf", xdmf_head("cables"), cable_steps_, xdmf_tail);
   if (totals_.bodies > 0) replace_text(directory_ / "bodies.xmf", xdmf_head("bodies"), body_steps_, xdmf_tail);
 }

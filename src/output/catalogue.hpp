@@ -6,24 +6,25 @@
 
 #include "layout.hpp"
 
-/// What a user opens: cables.xmf and bodies.xmf for ParaView and result.h5 for everyone else, over the closed segments.
+/// The files that a user opens are cables.xmf and bodies.xmf for ParaView, and result.h5 for everyone else.  They list
+/// the closed segments.
 namespace cablenet::output {
 
-/// How many there are on all ranks together.
+/// The numbers of nodes, elements and bodies on all ranks together.
 struct Totals {
   std::int64_t nodes;
   std::int64_t elements;
   std::int64_t bodies;
 };
 
-/// Kept by rank 0 alone; nothing here is collective.
+/// Writes these files.  Rank 0 alone uses it; nothing here is collective.
 class Catalogue {
 public:
   Catalogue(std::filesystem::path directory, Origin origin, const Totals& totals);
 
-  /// The next frame of the open segment.  @param time [s]
+  /// Adds a frame to the open segment.  @param time [s]
   void add_frame(double time);
-  /// The open segment has its final name: the files list its frames from now on.
+  /// Rewrites the files, which then list the frames of the open segment too.  @pre the segment has its final name
   /// @throws OutputError
   void close_segment();
 
@@ -35,8 +36,8 @@ private:
   Origin origin_;
   Totals totals_;
   std::int64_t frames_ = 0;
-  std::vector<std::int64_t> ends_;   ///< of every closed segment: the number of its last frame plus one
-  /// The .xmf texts of every frame: to make them anew each time would cost more.
+  std::vector<std::int64_t> ends_;   ///< per closed segment: the number of its last frame plus one
+  /// The .xmf texts of all frames.  They are kept because making them anew each time would cost more.
   std::string cable_steps_, body_steps_;
 };
 

@@ -72,7 +72,7 @@ void prepare_directory(const fs::path& directory) {
     fs::remove(path, error);
     if (error) fail("remove", path, error.value());
   };
-  // The indices go first: they never name a file that is not there.
+  // The indices go first, so that they never name a file that is gone.
   for (const char* index : {"cables.xmf", "bodies.xmf"}) remove(directory / index);
   std::vector<fs::path> stale;
   auto entry = fs::directory_iterator(directory, error);

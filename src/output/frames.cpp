@@ -13,12 +13,12 @@ namespace {
 
 using petsc::check;
 
-/// Position, velocity, quaternion, angular velocity.
+/// The position, velocity, quaternion and angular velocity of a body: 3 + 3 + 4 + 3.
 constexpr std::size_t values_per_body = 13;
 
 std::int64_t block_start(std::int64_t count, int rank, int ranks) { return count * rank / ranks; }
 
-/// Where item `index` of `count` is written: the rank and the index in its block.
+/// The rank whose block has item `index` of `count`, and the item's index in that block.
 PetscSFNode root_of(std::int64_t count, std::int64_t index, int ranks) {
   int rank = static_cast<int>(((index + 1) * ranks - 1) / count);
   while (block_start(count, rank, ranks) > index) --rank;
@@ -26,7 +26,7 @@ PetscSFNode root_of(std::int64_t count, std::int64_t index, int ranks) {
   return {rank, static_cast<PetscInt>(index - block_start(count, rank, ranks))};
 }
 
-/// Sends `width` doubles per leaf to its root.
+/// Sends `width` doubles from each leaf to its root.  Collective.
 void send(PetscSF forest, int width, const std::vector<double>& leaves, std::vector<double>& roots, MPI_Op operation) {
   MPI_Datatype unit = MPI_DOUBLE;
   if (width > 1) {
@@ -95,7 +95,8 @@ void Frames::fill_bodies(const network::Network& network) {
   }
 }
 
-/// The few values of a body are summed from the rank that has it.
+/// Only the rank that owns a body has values for it, and the other ranks add zeros.  The values are few, so a sum is
+/// cheap.
 void Frames::collect_bodies(const system::LocalState& state) {
   const partition::LocalNetwork& here = assembler_.network();
   const std::size_t bodies = mesh_.body_names.size();

@@ -14,7 +14,7 @@
 namespace cablenet::output {
 namespace {
 
-/// Owner of an HDF5 object that is not a file.
+/// Owns an HDF5 object that is not a file.
 class Hdf5Object {
 public:
   using Close = herr_t (*)(hid_t);
@@ -27,7 +27,7 @@ public:
   Hdf5Object& operator=(const Hdf5Object&) = delete;
 
   operator hid_t() const { return id_; }
-  /// For objects whose closing may fail.
+  /// Closes the object where that may fail.  @returns HDF5's status
   herr_t close() { return close_(std::exchange(id_, H5I_INVALID_HID)); }
 
 private:
@@ -62,7 +62,7 @@ void require_block(const std::string& name, const Rows& rows, int columns, std::
 hid_t Hdf5File::check(hid_t result, std::string_view what) const {
   if (result >= 0) return result;
   const std::string reason = innermost_reason();
-  // Through MPI the reason of a failed write is lost; it mostly is a full disk.
+  // MPI loses the reason of a failed write.  Mostly it is a full disk, so the message tells the free space.
   std::error_code unknown;
   const auto space = std::filesystem::space(path_.has_parent_path() ? path_.parent_path() : ".", unknown);
   const std::string free = unknown ? "" : fmt::format(" ({} bytes free on its disk)", space.available);
@@ -114,7 +114,7 @@ void Hdf5File::write_block(const std::string& name, const Rows& rows, int column
   check(H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE), name);
   Hdf5Object dataset(check(H5Dcreate2(file_, name.c_str(), type, file_space, H5P_DEFAULT, creation, H5P_DEFAULT), name),
                      H5Dclose);
-  // A dataset without rows has no address that could be written to.
+  // A dataset without rows has no address to write to.
   if (rows.total > 0) check(H5Dwrite(dataset, type, memory_space, file_space, transfer, values), name);
   check(dataset.close(), name);
 }
@@ -157,7 +157,7 @@ void Hdf5File::link(const std::string& name, const std::string& file, const std:
 }
 
 void Hdf5File::close() {
-  // H5Fclose alone leaves the data to the system's cache.
+  // H5Fclose alone would leave the data in the operating system's cache.
   check(H5Fflush(file_, H5F_SCOPE_LOCAL), "flush");
   check(H5Fclose(std::exchange(file_, H5I_INVALID_HID)), "close");
 }

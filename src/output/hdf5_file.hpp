@@ -9,18 +9,18 @@
 #include <string_view>
 #include <vector>
 
-/// The little of HDF5 that a series needs, with every return code checked.
-/// HDF5 itself prints nothing: its innermost reason is part of the OutputError.
+/// This header has the part of HDF5 that a series needs.  Every return code is checked.
+/// HDF5 itself prints nothing: the OutputError holds its innermost reason.
 namespace cablenet::output {
 
-/// How the rows of a dataset lie on the ranks: one contiguous block each, possibly empty.
+/// The rows of a dataset, of which each rank has one contiguous block, possibly an empty one.
 struct Rows {
   std::int64_t total;
   std::int64_t first;   ///< of this rank's block
   std::int64_t local;
 };
 
-/// A value for each row, and no second dimension.
+/// For `columns`: the dataset has one value for each row, and no second dimension.
 constexpr int one_dimensional = 0;
 
 /// A new HDF5 file.  Every member but the destructor is collective over the communicator; objects are named by
@@ -29,7 +29,7 @@ class Hdf5File {
 public:
   /// Replaces an existing file.
   Hdf5File(MPI_Comm communicator, const std::filesystem::path& path);
-  /// Leaves a file that was not closed to MPI_Finalize: closing waits for ranks that may never come.
+  /// Leaves a file that was not closed to MPI_Finalize, because closing would wait for ranks that may never come.
   ~Hdf5File() = default;
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
@@ -40,19 +40,21 @@ public:
   /// @param values  this rank's rows, row-major
   void write_rows(const std::string& name, const Rows& rows, int columns, std::span<const double> values);
   void write_rows(const std::string& name, const Rows& rows, int columns, std::span<const int> values);
-  /// Fixed-length UTF-8 strings, padded with zeros.
-  /// @param values  all of them, the same on every rank; `rows` is all on one rank and nothing on the others
+  /// A dataset of UTF-8 strings of one length, padded with zeros.
+  /// @param rows    all rows on one rank, and none on the others
+  /// @param values  all strings, the same on every rank
   void write_strings(const std::string& name, const Rows& rows, const std::vector<std::string>& values);
 
-  /// The value is the same on every rank.
+  /// @param value  the same on every rank
   void set_attribute(const std::string& object, const std::string& name, double value);
   void set_attribute(const std::string& object, const std::string& name, std::int64_t value);
   void set_attribute(const std::string& object, const std::string& name, std::string_view value);
 
-  /// `name` stands for `target` in another file, named relative to this file's directory.
+  /// Makes `name` a link to `target` in another file.
+  /// @param file  path relative to this file's directory
   void link(const std::string& name, const std::string& file, const std::string& target);
 
-  /// Everything is on the disk when this returns on every rank.
+  /// Closes the file.  All of it is on the disk when this has returned on every rank.
   void close();
 
 private:

@@ -40,7 +40,7 @@ void History::append(std::string_view line) {
   try {
     write_all(descriptor_, line, path_);
   } catch (const OutputError&) {
-    // Half a number reads as a wrong one.  Where even cutting fails, there is no more to be done.
+    // Half a number would be read as a wrong one, so the row is cut off.  If that fails, nothing more can be done.
     [[maybe_unused]] const int ignored = ftruncate(descriptor_, size_);
     throw;
   }

@@ -8,14 +8,14 @@
 namespace cablenet::output {
 namespace {
 
-/// Where this rank has the scene's nodes.
+/// The local node of each scene node; none where the node is not on this rank.
 Table<SceneNode, LocalNode> local_nodes(const partition::LocalNetwork& here, int scene_nodes) {
   Table<SceneNode, LocalNode> local(scene_nodes);
   for (LocalNode node(0); node.value() < here.nodes; ++node) local[here.scene_node[node]] = node;
   return local;
 }
 
-/// Where this rank has the elements that belong to it, -1: not here.
+/// The local index of each scene element that belongs to this rank; -1 for the others.
 std::vector<int> own_elements(const partition::LocalNetwork& here, std::size_t scene_elements) {
   std::vector<int> own(scene_elements, -1);
   for (int i = 0; i < here.own_elements; ++i) own[at(here.scene_element[at(i)])] = i;
@@ -24,7 +24,7 @@ std::vector<int> own_elements(const partition::LocalNetwork& here, std::size_t s
 
 constexpr const char* motion_names[] = {"x", "y", "z", "vx", "vy", "vz", "ax", "ay", "az"};
 
-/// Free nodes with one element and no load: nothing pulls there.
+/// Free nodes with one element and no load.  Nothing but the element pulls at them.
 Table<SceneNode, bool> bare_ends(const network::Network& network) {
   Table<SceneNode, int> pulls(network.position.size(), 0);
   for (const auto& element : network.elements)

@@ -36,7 +36,7 @@ Rows rows_on_rank_0(std::size_t count, int rank) {
   return rank == 0 ? Rows{rows, 0, rows} : Rows{rows, rows, 0};
 }
 
-/// Collective: does `work` on every rank; what it threw on the lowest failing rank is thrown on every rank.
+/// Does `work` on every rank.  If it throws, every rank throws the text of the lowest rank that failed.  Collective.
 template <class Work>
 void agree(MPI_Comm communicator, const Work& work) {
   std::string error;
@@ -94,10 +94,10 @@ struct Series::Impl {
 
   Clock::time_point opened = Clock::now();
   Clock::time_point last_write = Clock::now();
-  double catalogue_seconds = 0;   ///< that the catalogue took when it was last written
+  double catalogue_seconds = 0;   ///< time that the last writing of the catalogue took
 };
 
-// One step at a time, lest a rank that failed leave the others waiting in the next.
+// The ranks agree after each step.  A rank that failed would otherwise leave the others waiting in the next one.
 void Series::Impl::write_mesh(const Mesh& mesh) {
   const fs::path part = directory / "mesh.h5.part";
   const Rows names = rows_on_rank_0(mesh.cable_names.size(), rank);
@@ -160,13 +160,13 @@ void Series::Impl::write_fields(const Frame& frame) {
   field("body_angular_velocity", bodies, 3, frame.body_angular_velocity, "rad/s");
 }
 
-/// Rank 0 decides for all, whose clocks differ.
+/// Rank 0 decides for all ranks, because their clocks differ.
 bool Series::Impl::segment_is_due() {
   int due = 0;
   if (rank == 0) {
     const std::int64_t frame_limit = std::max<std::int64_t>(options.frames_per_segment, (frames - open_frames) / 10);
     const double time_limit = std::max(options.seconds_per_segment, 50 * catalogue_seconds);
-    // The next frame is expected as long after this one as this one after the last.
+    // The next frame is expected to take as long as this one did.
     const double age_at_next = seconds_since(opened) + seconds_since(last_write);
     due = open_frames >= frame_limit || age_at_next >= time_limit;
     last_write = Clock::now();
@@ -198,7 +198,7 @@ Series::Series(MPI_Comm communicator, fs::path directory, const Mesh& mesh, Opti
   impl_->write_mesh(mesh);
 }
 
-// An open segment is left as it is: closing it here could wait for ranks that unwind another way.
+// An open segment is left as it is: closing it could wait for ranks that leave in another way.
 Series::~Series() = default;
 
 void Series::write(const Frame& frame) {

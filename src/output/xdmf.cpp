@@ -8,7 +8,7 @@ namespace {
 constexpr std::string_view real = R"(NumberType="Float" Precision="8")";
 constexpr std::string_view integer = R"(NumberType="Int" Precision="4")";
 
-// Without Precision="8" the readers take doubles for floats.
+// Without Precision="8" in `real` the readers take doubles for floats.
 std::string data_item(std::string_view type, const std::string& shape, const std::string& address) {
   return fmt::format(R"(<DataItem Format="HDF" {} Dimensions="{}">{}</DataItem>)", type, shape, address);
 }
@@ -77,7 +77,7 @@ std::string xdmf_bodies(double time, std::int64_t bodies, std::string_view group
   };
   at_nodes("velocity", "Vector", data_item(real, b + " 3", in_frame("velocity")));
   at_nodes("angular_velocity", "Vector", data_item(real, b + " 3", in_frame("angular_velocity")));
-  // Of a "Vector" the readers keep three components.
+  // The readers keep only three components of a "Vector".
   at_nodes("quaternion", "Matrix", data_item(real, b + " 4", in_frame("quaternion")));
   at_nodes("body_id", "Scalar", data_item(integer, b + " 1", vertices));
   at_nodes("box", "Vector", data_item(real, b + " 3", "mesh.h5:/mesh/body_box"));

@@ -14,7 +14,7 @@
 namespace cablenet::partition {
 namespace {
 
-/// The graph as METIS wants it.
+/// A graph in the form that METIS takes.
 class Cutter {
 public:
   explicit Cutter(const Graph& graph)
@@ -25,8 +25,9 @@ public:
 
   enum class Way { direct, recursive, branches };
 
-  /// The direct way keeps a part in one piece; the recursive one balances parts of few vertices or heavy branches;
-  /// the last one takes whole branches off hubs, whose edges count for little since the hub alone becomes interface.
+  /// The ways of cutting that are worth a try.  The direct way keeps a part in one piece.  The recursive way balances
+  /// parts of few vertices or heavy branches.  The way `branches` takes whole branches off hubs.  Edges at a hub count
+  /// for little there, because the hub alone becomes interface.
   std::vector<Way> ways(int parts) const {
     const bool large = first_.size() > at(least_for_direct) * at(parts);
     return large ? std::vector<Way>{Way::direct, Way::recursive, Way::branches}
@@ -53,7 +54,7 @@ public:
   }
 
 private:
-  /// In inverse proportion to the edges at the busier end.
+  /// The weight of an edge is in inverse proportion to the number of edges at the end that has more of them.
   std::vector<idx_t> edge_weights() const {
     constexpr idx_t heaviest = 64;
     std::vector<idx_t> weights;
@@ -76,7 +77,7 @@ private:
   bool connected_;
 };
 
-/// Cuts again and again with the costs that the last cut has brought about, and keeps the best.
+/// Cuts repeatedly, each time with the costs that the last cut has brought about, and keeps the best cut.
 class Search {
 public:
   Search(const Graph& graph, int parts, const std::vector<int>& work)
@@ -86,7 +87,7 @@ public:
     const auto ways = cutter_.ways(parts_);
     const std::vector<int> first = work_.empty() ? std::vector<int>(at(graph_.vertices()), 1) : work_;
     if (count_loops(graph_) > loops_of_net) return cutter_.cut(first, parts_, ways.front());
-    // Two parts of a tree have interface on one side alone.
+    // Two parts of a tree have the interface on one side alone, so no vertex costs more after the first cut.
     const int cuts = parts_ == 2 ? 1 : most_cuts;
     for (const auto way : ways) {
       std::vector<int> cost = first;
@@ -97,10 +98,10 @@ public:
   }
 
 private:
-  /// Graphs with more loops than this count as nets: nearly all of their vertices fill in wherever they are cut.
+  /// A graph with more loops than this counts as a net: nearly all of its vertices get fill, wherever it is cut.
   static constexpr int loops_of_net = 100;
   static constexpr int most_cuts = 4;
-  static constexpr double good_imbalance = 1.02;   ///< of the most expensive part to the average
+  static constexpr double good_imbalance = 1.02;   ///< cost of the most expensive part over the average
 
   /// @returns the cost of every vertex
   std::vector<int> try_cut(std::vector<int> part) {
@@ -109,7 +110,7 @@ private:
     std::vector<long> sums(at(parts_), 0);
     for (std::size_t v = 0; v < part.size(); ++v) sums[at(part[v])] += cost[v];
     const long largest = *std::max_element(sums.begin(), sums.end());
-    // Every rank solves for the interface.
+    // Every rank solves for the whole interface.
     const long shared = std::count(interface.begin(), interface.end(), true);
     const std::pair<long, long> found{largest + usual_cost * shared, shared};
     if (found < lowest_) {
@@ -127,7 +128,7 @@ private:
   Cutter cutter_;
   std::vector<int> best_;
   std::pair<long, long> lowest_{std::numeric_limits<long>::max(),
-                                0};   ///< cost of the busiest rank, interface vertices
+                                0};   ///< the best cut's cost of the busiest rank, and its interface vertices
   double imbalance_ = std::numeric_limits<double>::max();
 };
 
@@ -180,7 +181,7 @@ std::vector<int> step_cost(const Graph& graph, const std::vector<bool>& interfac
 
 namespace {
 
-/// More than an elimination could ever be worth.
+/// The most pairs of an interface graph: eliminating more would never be worth it.
 constexpr double most_pairs = 1e8;
 
 }   // namespace

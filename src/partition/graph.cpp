@@ -27,22 +27,23 @@ std::vector<int> dissect(const Graph& graph) {
   return {order.begin(), order.end()};
 }
 
-/// A graph that shrinks as its vertices of at most two neighbours are eliminated.  That never makes a neighbour list
-/// longer, so it happens in place; `twin_` leads from each entry to the entry for the same edge at its other end.
+/// A graph that shrinks as vertices with at most two neighbours are eliminated.  Such an elimination makes no neighbour
+/// list longer, so it takes place in the lists themselves.  `twin_` leads from an entry of a list to the entry for the
+/// same edge in the list of the other end.
 class OrderFinder {
 public:
   OrderFinder(const Graph& graph, const std::vector<bool>& kept)
       : graph_(simple_graph(graph)), twin_(graph_.adjacent.size()), degree_(at(graph_.vertices()), 0), held_(kept) {
     held_.resize(degree_.size(), false);
     order_.reserve(degree_.size());
-    // Neighbours are in ascending order: the smaller ones of a vertex have met it when its turn comes.
+    // Neighbours are in ascending order, so a vertex is already paired with the smaller ones when its turn comes.
     for (int v = 0; v < graph_.vertices(); ++v)
       for (int k = graph_.first[at(v)] + degree_[at(v)]; k < graph_.first[at(v) + 1]; ++k, ++degree_[at(v)])
         pair(k, graph_.first[at(graph_.adjacent[at(k)])] + degree_[at(graph_.adjacent[at(k)])]++);
   }
 
-  /// Along two cables at a time, in turns: what is done for one does not wait for the other, so that a processor
-  /// overlaps the two.
+  /// Peels leaves along two cables in turns.  The work on one cable does not wait for the other's, so a processor can
+  /// overlap the two.
   void peel_leaves() {
     std::array<int, 2> fronts{-1, -1};
     int seed = 0;
@@ -110,7 +111,7 @@ private:
     if (degree_[at(a)] > degree_[at(b)]) std::swap(a, b);
     for (int side = 0; side < degree_[at(a)]; ++side)
       if (neighbour(a, side) == b) {
-        // The next of many paths between the same two vertices finds their edge at once.
+        // The edge moves to the front, where the next of many paths between the same two vertices finds it at once.
         swap_entries(graph_.first[at(a)] + side, graph_.first[at(a)]);
         return true;
       }
@@ -147,14 +148,15 @@ private:
     return parent;
   }
 
-  /// @returns the vertex at which it ends, or -1
+  /// Peels leaves, one after the other, along the cable that begins at `leaf`.
+  /// @returns the vertex at which the peeling ends, or -1
   int peel_from(int leaf) {
     int v = leaf;
     while (can_peel(v)) v = peel(v);
     return v;
   }
 
-  /// Eliminates the path through `seed`, and what that frees ahead, from end to end.
+  /// Eliminates the path through `seed` from end to end, and the vertices ahead that become eliminable by that.
   /// @param freed  gets the vertices that may have become eliminable
   void contract_path(int seed, std::vector<int>& freed) {
     int v = seed, behind = neighbour(seed, 0);

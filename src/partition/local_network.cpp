@@ -6,7 +6,7 @@
 namespace cablenet::partition {
 namespace {
 
-/// Numbers this rank's nodes; local_of[scene node] is none where the node is not here.
+/// Extracts a rank's share of the network.  local_of_[scene node] is none where the node is not on this rank.
 class Extraction {
 public:
   Extraction(const network::Network& network, const Partition& partition, int rank)
@@ -62,7 +62,7 @@ private:
     here_.velocity.push_back(network_.velocity[node]);
   }
 
-  /// Calls visit(node) for each element's and link's free ends on other ranks than its other end.
+  /// Calls visit(node) for both ends of each element or link whose ends are free and belong to two ranks.
   template <class Visit>
   void for_each_cut_end(Visit&& visit) const {
     const auto visit_ends = [&](SceneNode a, SceneNode b) {
@@ -103,7 +103,7 @@ private:
       else
         (owned == 2 ? inner_ : mine ? rim_ : copies_).push_back(e);
     }
-    // In the order of their nodes, so that the loop over elements walks through memory.
+    // Elements are in the order of their nodes, so that the loop over elements walks through memory.
     std::stable_sort(inner_.begin(), inner_.end(),
                      [this](std::size_t e, std::size_t f) { return first_node(e) < first_node(f); });
   }
@@ -138,7 +138,8 @@ private:
     list_sent_nodes();
   }
 
-  /// Each rank lists the nodes that it sends by their numbers, so that every rank can tell a ghost's index.
+  /// A rank lists the nodes that it sends in the order of their solver numbers.  So every rank can tell at which index
+  /// a ghost stands in its owner's list.
   void list_sent_nodes() {
     std::vector<SolverNumber> sent;
     for_each_cut_end([&](SceneNode node) { sent.push_back(partition_.solver_number[node]); });
@@ -167,7 +168,7 @@ private:
     }
   }
 
-  /// A body of another rank carries only the nodes that are at elements and links here.
+  /// If a body belongs to another rank, only its carried nodes at elements and links of this rank are here.
   void add_bodies() {
     std::unordered_set<SceneNode> touched;
     for (const auto* group : {&attached_, &attached_copies_})
@@ -212,9 +213,9 @@ private:
   const Partition& partition_;
   int rank_;
   Table<SceneNode, LocalNode> local_of_;
-  Table<SceneNode, SceneNode> anchor_;              ///< empty if none is carried
-  std::vector<std::size_t> inner_, rim_, copies_;   ///< elements: between owned nodes, other own ones, another rank's
-  std::vector<std::size_t> attached_, attached_copies_;   ///< those at carried nodes: own ones, another rank's
+  Table<SceneNode, SceneNode> anchor_;              ///< empty if no node is carried
+  std::vector<std::size_t> inner_, rim_, copies_;   ///< elements: between owned nodes, other own ones, other ranks'
+  std::vector<std::size_t> attached_, attached_copies_;   ///< elements at carried nodes: own ones, other ranks'
   std::vector<network::Link<SceneNode>> links_;
   LocalNetwork here_;
 };

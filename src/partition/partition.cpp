@@ -10,10 +10,10 @@
 namespace cablenet::partition {
 namespace {
 
-/// Nodes that move on their own.
+/// The nodes that have unknowns of their own.  They are the vertices of the graph.
 struct FreeNodes {
   std::vector<SceneNode> node;    ///< per vertex
-  Table<SceneNode, int> vertex;   ///< its own or that of the body that carries it; -1 if prescribed
+  Table<SceneNode, int> vertex;   ///< per node: its own vertex, or its body's if it is carried; -1 if prescribed
 };
 
 FreeNodes find_free_nodes(const network::Network& network) {
@@ -30,7 +30,7 @@ FreeNodes find_free_nodes(const network::Network& network) {
   return free;
 }
 
-/// The graph whose vertices are the nodes with vertex[node] >= 0 and whose edges are the elements between them.
+/// The graph whose edges are the elements and links between different vertices.  A node without a vertex has -1.
 Graph node_graph(const network::Network& network, const Table<SceneNode, int>& vertex, int vertices) {
   Graph graph;
   graph.first.assign(at(vertices) + 1, 0);
@@ -68,8 +68,8 @@ std::vector<int> all_orders(const std::vector<int>& mine, int vertices, MPI_Comm
 struct Cut {
   std::vector<int> part;         ///< per vertex
   std::vector<bool> interface;   ///< per vertex
-  std::vector<int> order;        ///< the interface's vertices as they are eliminated
-  Graph coupled;                 ///< by index into order
+  std::vector<int> order;        ///< the interface's vertices in the order of elimination
+  Graph coupled;                 ///< couplings of the interface, by index into order
 };
 
 Cut make_cut(const Graph& graph, const std::vector<int>& work, MPI_Comm communicator) {
@@ -91,7 +91,8 @@ Cut make_cut(const Graph& graph, const std::vector<int>& work, MPI_Comm communic
   return cut;
 }
 
-/// The vertices of a part: its interior with the interface at it taken as kept, then its own interface.
+/// The vertices of a part in solver order.  The interior comes first, in an order of elimination that keeps the
+/// adjacent interface vertices.  The part's own interface vertices come last.
 std::vector<int> order_part(const Graph& graph, const Cut& cut, int part) {
   std::vector<int> vertices;
   const auto is_inside = [&](int v) { return cut.part[at(v)] == part && !cut.interface[at(v)]; };
@@ -110,7 +111,7 @@ std::vector<int> order_part(const Graph& graph, const Cut& cut, int part) {
   return order;
 }
 
-/// @param order vertices, rank after rank   @param part of every vertex
+/// @param order  the vertices, rank after rank   @param part  the part of every vertex
 void number_nodes(const std::vector<int>& order, const std::vector<SceneNode>& free_nodes, const std::vector<int>& part,
                   int ranks, int nodes, Partition& partition) {
   partition.node_owner.resize(nodes, 0);
@@ -128,7 +129,7 @@ void number_nodes(const std::vector<int>& order, const std::vector<SceneNode>& f
     partition.first_number[r] = std::max(partition.first_number[r], partition.first_number[r - 1]);
 }
 
-/// Carried nodes go where their bodies go.
+/// A carried node has the owner and the solver number of its body.
 void number_carried(const network::Network& network, Partition& partition) {
   for (const auto& carried : network.carried) {
     const SceneNode body = network.bodies[at(carried.body)].node;
@@ -146,7 +147,7 @@ Blocks make_blocks(const network::Network& network, const Partition& partition) 
   return {partition.first_number.back().value(), std::move(large)};
 }
 
-/// Nodes' worth that a body that turns, and one of its cables' ends, take in a step.
+/// The work in a step, in multiples of a usual node's: of a body that turns, and of each node that it carries.
 constexpr int body_work = 8, attachment_work = 2;
 
 std::vector<int> work_of(const network::Network& network, const FreeNodes& free) {
@@ -158,7 +159,8 @@ std::vector<int> work_of(const network::Network& network, const FreeNodes& free)
 }
 
 void assign_elements(const network::Network& network, Partition& partition) {
-  // An element without free nodes goes to a rank that has rows, so that every rank with elements has a voice in norms.
+  // An element without free nodes goes to a rank that has rows in the solver's vectors.  A failure of the element then
+  // shows in their norms.
   const auto first_rank =
       std::upper_bound(partition.first_number.begin(), partition.first_number.end(), SolverNumber(0));
   const int otherwise = static_cast<int>(first_rank - partition.first_number.begin()) - 1;

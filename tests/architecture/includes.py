@@ -15,7 +15,7 @@ def source_files(top):
 
 
 def room_of(path, top):
-    """The first folder under top; None for a file that lies in no room."""
+    """The room of a file, which is the first folder under top; None for a file that lies in no room."""
     parts = path.relative_to(top).parts
     return parts[0] if len(parts) > 1 else None
 

@@ -1,4 +1,4 @@
-"""The rebuild rule: the edit of a physics kernel compiles few files.  Data headers may be included everywhere."""
+"""The rebuild rule: after the edit of a physics kernel, few files are compiled.  Any file may include data headers."""
 import argparse
 import pathlib
 import re
@@ -18,7 +18,7 @@ def included_files(path, headers):
 
 
 def reachable(path, headers, known):
-    """All that the compiler reads of the project when it compiles `path`."""
+    """All files of the project that the compiler reads when it compiles `path`."""
     found, waiting = set(), [path.resolve()]
     while waiting:
         file = waiting.pop()
@@ -32,7 +32,7 @@ def reachable(path, headers, known):
 
 
 def users_of_headers(root):
-    """{header: sources that are compiled anew when it changes}; sources are all under src/ and tests/."""
+    """{header: sources that are compiled anew when it changes}, for all sources under src/ and tests/."""
     headers = [root / "include", root / "tests"]
     users, known = {}, {}
     for source in sorted([*(root / "src").rglob("*.cpp"), *(root / "tests").rglob("*.cpp")]):

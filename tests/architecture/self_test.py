@@ -18,7 +18,7 @@ GOOD = {
 
 
 def check(script, planted, arguments=()):
-    """Runs a checker over the good tree with `planted` added: (exit status, what it printed)."""
+    """Runs a checker over the good tree with `planted` added.  @return (exit status, what it printed)"""
     with tempfile.TemporaryDirectory() as folder:
         for name, text in {**GOOD, **planted}.items():
             path = pathlib.Path(folder, name)
@@ -104,7 +104,7 @@ class Sizes(unittest.TestCase):
 
 
 class Rebuilds(unittest.TestCase):
-    """A kernel that a header of every source in src/app/ passes on."""
+    """Every source in src/app/ includes a kernel through another header."""
     ROOMS = ["--rooms", "elements", "--data", "elements/cable_data.hpp"]
     TREE = {"include/cablenet/elements/cable_data.hpp": "",
             "include/cablenet/elements/cable.hpp": '#include "cablenet/elements/cable_data.hpp"\n',
@@ -115,7 +115,7 @@ class Rebuilds(unittest.TestCase):
         return check("rebuilds.py", {**self.TREE, **users, **changed}, self.ROOMS)
 
     def test_users_are_counted_through_headers(self):
-        # One more, src/solve/dynamics.cpp, is in the good tree.
+        # The good tree has one more source, src/solve/dynamics.cpp.
         for sources, status in ((14, 0), (15, 1)):
             found, printed = self.rebuilds(sources)
             self.assertEqual(found, status, printed)

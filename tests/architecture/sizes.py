@@ -8,7 +8,7 @@ HEADER_LINES = 120
 SOURCE_LINES = 300
 FUNCTION_LINES = 40
 
-# What hides braces from a counter: comments, literals (raw ones too), preprocessor lines.
+# A counter of braces must not see comments, literals (raw ones too) and preprocessor lines.
 HIDDEN = re.compile(
     r'//[^\n]*|/\*.*?\*/|R"(?P<mark>[^(\s]*)\(.*?\)(?P=mark)"|"(?:\\.|[^"\\\n])*"'
     r"|(?<![0-9A-Fa-f])'(?:\\.|[^'\\\n])+'|^[ \t]*#(?:\\\n|[^\n])*",
@@ -35,7 +35,7 @@ def function_name(head):
 def functions(text):
     """(name, first line, number of lines) of each function outside other functions."""
     text = HIDDEN.sub(blank, text)
-    found, depth, line = [], 0, 1          # depth counts braces inside a function or an initialiser
+    found, depth, line = [], 0, 1          # depth: number of open braces inside a function or an initialiser
     head, head_line = "", 1
     for position, char in enumerate(text):
         if depth == 0 and char == "{":

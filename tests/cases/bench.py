@@ -1,10 +1,10 @@
-"""What the scripts here share: mpirun's environment and the arguments that ctest gives."""
+"""The scripts of this folder share mpirun's environment and the arguments that ctest gives."""
 import argparse
 import os
 import pathlib
 import shutil
 
-# As root, with more ranks than cores, on a busy machine; ctest gives the same.
+# mpirun may run as root, with more ranks than cores, on a busy machine.  ctest sets the same variables.
 ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                "OMPI_MCA_rmaps_base_oversubscribe": "1",
                "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe", "OMPI_MCA_mpi_yield_when_idle": "1",
@@ -12,7 +12,7 @@ ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": 
 
 
 def arguments(description):
-    """--program and --scratch; the scratch folder is new and empty."""
+    """Reads --program and --scratch.  The scratch folder is new and empty."""
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--program", required=True)
     parser.add_argument("--scratch", type=pathlib.Path, required=True)

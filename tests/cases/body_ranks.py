@@ -11,7 +11,7 @@ from bench import arguments
 from ranks import TOLERANCE, Difference, compare, run
 
 RANKS = (1, 2, 3, 4)
-# An acceleration holds the last digit of a position over the square of the step: 1e-15 m / (4e-3 s)^2, 1e-10 of 1 m/s2.
+# An acceleration has the rounding of a position over the square of the step: 1e-15 m / (4e-3 s)^2 = 1e-10 of 1 m/s2.
 END, STEP = 0.4, 4e-3
 ROWS, COLUMNS = 4, 5
 SCHEMES = {"no scheme named": {}, "generalized_alpha": {"spectral_radius": 0.8}}
@@ -21,7 +21,7 @@ ROPE = {"mass_per_length": 0.05, "axial_stiffness": 5e3, "axial_damping": 5}
 
 
 def place(i, above=0.0):
-    """Of body i, or above it: four rows, none of them straight."""
+    """The place of body i, or a place above it.  The bodies form four rows that are not straight."""
     row, column = divmod(i, COLUMNS)
     return [float(x) for x in (1.5 * column + 0.2 * np.sin(3 * i), 1.2 * row + 0.2 * np.cos(5 * i),
                                -1.0 * row + 0.3 * np.sin(7 * i) + above)]
@@ -33,7 +33,8 @@ def waves(i, sizes):
 
 
 def body(i):
-    """Every fifth is a point mass, with or without an arm; of the others some turn by Euler angles, some have links."""
+    """The keys of body i.  Every fifth body is a point mass, with or without an arm.  Of the others some have Euler
+    angles, and some have links."""
     keys = {"mass": 1 + 0.1 * i, "position": place(i), "velocity": waves(i, (0.5, 0.4, 0.3)),
             "force": waves(i + 1, (1, 2, 3)), "attachments": CORNERS}
     if i % 5 == 3:
@@ -46,7 +47,9 @@ def body(i):
 
 
 def hangers():
-    """Points above the first row, one of them moving, each with a bridle of two cables to its body."""
+    """Points above the first row of bodies, one of which moves.  Each body of that row hangs on two cables from its
+    point.
+    @return {name: point}, [(from, to) of each cable]"""
     points = {f"top{i}": {"position": place(i, 1.5), "motion": "fixed"} for i in range(COLUMNS)}
     points["top2"]["motion"] = {"harmonic": {"amplitude": [0.02, 0.03, 0.05], "period": 0.3, "phase": 40}}
     return points, [(f"top{i}", f"b{i}.{corner}") for i in range(COLUMNS) for corner in "ab"]
@@ -81,7 +84,7 @@ def scene(time_keys):
 
 
 def agrees(program, path, folder, ranks, reference):
-    """Prints a line. @return whether this number of ranks gives the reference, and what it gives"""
+    """Compares one run with the reference, and prints a line.  @return whether they agree, and the run's history"""
     start, found = time.monotonic(), None
     try:
         found = run(program, path, folder / str(ranks), ranks)

@@ -1,4 +1,5 @@
-"""Every scene in broken/ is refused: exit status 2, one message that names the line, nothing written.
+"""The program refuses every scene in broken/ with exit status 2 and one message that names the line, and writes
+nothing.
 
 A scene's first line is its expectation: `# expect: LINE | TEXT | TEXT ...`.
 """
@@ -22,7 +23,7 @@ def run(program, arguments, folder):
 
 
 def complaints(done, folder, parts, most_lines):
-    """What is wrong with a refusal, as a list of texts."""
+    """A list of texts that say what is wrong with a refusal."""
     lines = [line for line in done.stderr.splitlines() if line.strip()]
     found = []
     if done.returncode != 2:

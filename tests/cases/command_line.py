@@ -1,4 +1,4 @@
-"""What the command line promises: exit statuses, files, PETSc options, help."""
+"""The command line keeps its promises on exit statuses, files, PETSc options and help."""
 import csv
 import json
 import subprocess

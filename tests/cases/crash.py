@@ -1,4 +1,4 @@
-"""Kills a running simulation at random moments and checks that what it had closed is whole."""
+"""Kills a running simulation at random moments and checks that the files which it had closed are whole."""
 import argparse
 import os
 import pathlib
@@ -29,7 +29,7 @@ time: {end: 1.0e4, step: 1.0e-4}
 output: {interval: 0, history: [tip]}
 """
 
-SIGNS = ("cables.xmf", "mesh.h5", "cables.xmf", None)      # what a run has written when the clock for its kill starts
+SIGNS = ("cables.xmf", "mesh.h5", "cables.xmf", None)      # the file whose writing starts the delay until the kill
 
 
 class Damage(Exception):
@@ -53,18 +53,18 @@ def members(session):
 
 
 def remove_leftovers(mpirun):
-    """Shared memory and session folder, which killed ranks leave behind and nobody else removes."""
+    """Removes the shared memory and the session folder that killed ranks leave behind.  Nothing else removes them."""
     for session in pathlib.Path(tempfile.gettempdir()).glob(f"ompi.*/pid.{mpirun.pid}"):
         contact = session / "contact.txt"
         if contact.exists():
-            family = int(contact.read_text().split(".")[0]) >> 16      # of job numbers: one family for each mpirun
+            family = int(contact.read_text().split(".")[0]) >> 16      # each mpirun has a family of job numbers
             for segment in pathlib.Path("/dev/shm").glob(f"vader_segment.*.{family:x}????.*"):
                 segment.unlink(missing_ok=True)
         shutil.rmtree(session, ignore_errors=True)
 
 
 def kill(mpirun):
-    """Everything at once."""
+    """Kills mpirun and all its ranks at once."""
     while pids := list(members(mpirun.pid)):
         for pid in pids:
             try:
@@ -114,7 +114,7 @@ def check_dataset(run, item):
 
 
 def check_frames(run):
-    """Number of frames in the index; all of them are whole, and in result.h5."""
+    """Checks that all frames of the index are whole and in result.h5.  @return their number"""
     steps = xml.parse(run / "cables.xmf").getroot().findall("./Domain/Grid/Grid")
     with h5py.File(run / "result.h5", "r") as result:
         for number, step in enumerate(steps):
@@ -126,7 +126,7 @@ def check_frames(run):
 
 
 def check_history(run):
-    """All rows but the last, which the kill may have cut, have a number for each column."""
+    """Checks that all rows have a number for each column, but for the last row, which the kill may have cut."""
     if not (run / "history.csv").exists():
         return
     header, *rows = (run / "history.csv").read_text().split("\n")[:-1] or [""]
@@ -161,7 +161,7 @@ def main():
     chance = random.Random(given.seed)
     survivors = []
     for number in range(given.kills):
-        # All in one folder, so that the removal of an earlier run may be hit, too.
+        # All runs use one folder, so that a kill can also hit the removal of an earlier run.
         sign = SIGNS[number % len(SIGNS)]
         delay = chance.uniform(0, 1.5)
         moment = f"kill {number}, {delay:.3f} s after {sign or 'its start'}"

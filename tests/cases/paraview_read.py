@@ -1,5 +1,5 @@
-"""What ParaView reads from cables.xmf, and from bodies.xmf where a run has bodies, against what h5py reads from
-result.h5: bit for bit, in both its XDMF readers.
+"""Both XDMF readers of ParaView read from cables.xmf, and from bodies.xmf if a run has bodies, exactly what h5py reads
+from result.h5.
 
 paraview_read.py RUN                           checks a run
 paraview_read.py --program P --scratch DIR     makes one first
@@ -12,7 +12,7 @@ import sys
 
 import numpy
 
-# Of each index, by ParaView's names: the datasets of a frame and those of the mesh.
+# {index: ({ParaView's name: dataset of a frame}, {ParaView's name: dataset of the mesh})}.
 INDICES = {
     "cables.xmf": ({"points": "points", "velocity": "velocity", "tension_node": "tension_node", "tension": "tension",
                     "strain": "strain"},
@@ -50,7 +50,8 @@ def make_run(program, scratch, ranks):
 
 
 def dump(run, index, target):
-    """What an index should show by h5py as one .npz: ParaView's process has an HDF5 library of its own."""
+    """Writes what h5py reads for an index into one .npz file.  ParaView's process cannot use h5py, because it has an
+    HDF5 library of its own."""
     import h5py
     frame_fields, mesh_fields = INDICES[index]
     with h5py.File(run / "result.h5", "r") as result:
@@ -73,7 +74,7 @@ def check_index(run, index):
     finally:
         values.unlink()
     print(done.stdout, end="")
-    # ParaView can crash after the script's end, or end well without having run it.
+    # ParaView can crash after the script's end, or end without an error although it has not run the script.
     return done.returncode == 0 and "no difference" in done.stdout
 
 
@@ -90,7 +91,7 @@ def same(given, expected):
 
 
 def fields_of(grid):
-    """Every array of a grid by the name that the run gives it."""
+    """{name in the run: array} for all arrays of a grid."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
     fields = {"points": vtk_to_numpy(grid.GetPoints().GetData())}
     for data in (grid.GetPointData(), grid.GetCellData()):
@@ -125,7 +126,7 @@ def differences(reader, expected, constant):
 
 
 def compare(run, index, values):
-    """Inside pvbatch."""
+    """Compares ParaView's arrays with h5py's.  This part runs inside pvbatch."""
     from paraview import simple
     expected = dict(numpy.load(values))
     count = 0

@@ -84,8 +84,9 @@ class Difference(Exception):
     pass
 
 
-# On one rank: other solvers of the same systems, and the scenes for them.  In `array` elements go slack and taut within
-# Newton's iterations, which then end within rounding but not in the same place.
+# {label: (scenes, options)} of other solvers of the same systems, which run on one rank.  Kept and lagged tangents
+# leave out `array`: its elements go slack and taut within Newton's iterations, which then end within rounding of the
+# solution but not in the same place.
 SOLVERS = {
     "lu": (set(SCENES), ("-pc_type", "lu")),
     "gmres": (set(SCENES), ("-ksp_type", "gmres")),
@@ -108,7 +109,7 @@ def run(program, scene, folder, ranks, options=()):
 
 
 def scales(columns, rows):
-    """Per column its largest value; the energies, whose sum balances, share one."""
+    """{column: its largest value}.  The energies share one scale, because they balance each other."""
     largest = [max(abs(row[i]) for row in rows) for i in range(len(columns))]
     energy = max((value for name, value in zip(columns, largest) if name.startswith("energy.")), default=0)
     return [energy if name.startswith("energy.") else value for name, value in zip(columns, largest)]

@@ -1,4 +1,4 @@
-"""Runs everything that water and a seabed act on, on 1, 2, 3 and 4 ranks, and checks that the histories agree."""
+"""Runs all parts on which water and a seabed act on 1, 2, 3 and 4 ranks, and checks that the histories agree."""
 import json
 import shutil
 import subprocess
@@ -10,7 +10,7 @@ from ranks import Difference, compare, run
 
 RANKS = (1, 2, 3, 4)
 TOLERANCE = 1e-8   # of a quantity's scale: its largest value in the run
-# An acceleration holds the last digit of a position over the square of the step.
+# An acceleration has the rounding of a position over the square of the step.
 ACCELERATION_TOLERANCE = 1e-6
 
 FLUID = {"density": 1025, "surface": 0, "depth": 12,
@@ -72,7 +72,7 @@ def variants():
 
 
 def part(found, accelerations):
-    """The columns of accelerations, or the others; time is among both."""
+    """The columns of accelerations, or all other columns.  Both have the time."""
     columns, rows = found
     chosen = [i for i, name in enumerate(columns)
               if name == "time" or (name[-3:] in (".ax", ".ay", ".az")) == accelerations]

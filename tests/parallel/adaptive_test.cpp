@@ -24,7 +24,7 @@ scene::Time time_of(const Case& item, double end, double step, std::optional<dou
 
 const Case energy_momentum{"energy_momentum", Scheme::energy_momentum, 1};
 
-/// Nothing in it happens suddenly.
+/// The motion of this chain is smooth: nothing happens suddenly.
 const std::string swinging = R"(
 environment: {gravity: 9.81}
 points:
@@ -33,7 +33,7 @@ points:
 cables: {chain: {type: damped, from: top, to: tip, elements: 3}}
 )";
 
-/// The mass falls 0.5 m before the rope is taut, 0.319 s after the start, and is thrown up again.
+/// The mass falls 0.5 m until the rope is taut, 0.319 s after the start.  Then it is thrown up again.
 const std::string snapping = R"(
 environment: {gravity: 9.81}
 points:
@@ -70,7 +70,7 @@ TEST_P(Adaptive, ErrorsFollowTheTolerance) {
     EXPECT_EQ(coarse.verdict, Verdict::finished);
     errors.push_back(size(difference(coarse.x, exact.x)));
   }
-  // The step goes with tolerance^(1/3), halved or doubled, and the error with its square.
+  // The step is proportional to tolerance^(1/3), to a factor of 2.  The error is proportional to the step's square.
   for (std::size_t i = 1; i < errors.size(); ++i) {
     EXPECT_GE(errors[i - 1] / errors[i], 8) << "errors " << errors[i - 1] << " and " << errors[i];
     EXPECT_LE(errors[i - 1] / errors[i], 32) << "errors " << errors[i - 1] << " and " << errors[i];
@@ -147,7 +147,7 @@ INSTANTIATE_TEST_SUITE_P(Schemes, Adaptive,
 
 namespace {
 
-/// x'' = -x by the generalised-alpha method, its force taken at the stage, which for x'' = -x is TSALPHA2's own.
+/// x'' = -x by the generalised-alpha method.  The force is taken at the stage: for x'' = -x TSALPHA2 does the same.
 class Oscillator {
 public:
   explicit Oscillator(double radius)
@@ -166,7 +166,7 @@ public:
     a_ = next;
     kept = alpha_.alternates() ? (v - start_v) / dt : next;
   }
-  /// Of the last step.
+  /// The error of the last step against the exact solution from the step's start.
   double true_error() const { return std::abs(x - start_x * std::cos(alpha_.dt) - start_v * std::sin(alpha_.dt)); }
   const solve::AlphaStep& alpha() const { return alpha_; }
 
@@ -178,7 +178,7 @@ private:
   double a_ = -0.6;
 };
 
-/// In the first component.
+/// A vector of one node, with `value` in the first component and 0 in the others.
 system::Vector vector_of(double value) {
   system::Vector vector;
   petsc::check(VecCreateSeq(PETSC_COMM_SELF, 3, vector.out()));
@@ -235,7 +235,7 @@ Fall fall(Scheme scheme, double radius, std::optional<double> tolerance) {
   const network::Network network = whip();
   const scene::Time time{0, 1, 1e-3, scheme, radius, 0.05, tolerance};
   const Trajectory run(network, time, 0.1, PETSC_COMM_WORLD);
-  // examples/free_fall/reference.csv
+  // The exact place is from examples/free_fall/reference.csv.
   const Vector3 exact(-1.56354970013115, 0, -0.616180665274549);
   return {run.counts().steps + run.counts().rejected, (run.x[SceneNode(1)] - exact).norm()};
 }

@@ -27,7 +27,7 @@ void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace {
 
-/// Allocations in each step of a run.
+/// The number of allocations in each step of a run.
 std::vector<long> allocations_per_step(const std::string& text, Scheme scheme) {
   const network::Network network = network_of(text);
   System system(network, {scheme, 0, elements::Tangent::exact}, PETSC_COMM_WORLD);

@@ -37,7 +37,7 @@ struct Case {
   friend void PrintTo(const Case& item, std::ostream* out) { *out << item.name; }
 };
 
-/// A state within a step, and the shifts by which v and a follow x, as TSALPHA2 has them.
+/// A state within a step, and the shifts dv/dx and da/dx of TSALPHA2.
 struct State {
   State(const network::Network& network, double radius) {
     stage = {0.3, 0.02, 1 / (1 + radius)};
@@ -74,7 +74,7 @@ Field residual(System& system, const State& s, double step) {
   return system.field(r);
 }
 
-/// Tangent times s.direction.
+/// The tangent times s.direction.
 Field times_direction(System& system, const State& s, system::TangentMatrix& tangent) {
   const system::Vector product = system.assembler.make_vector();
   tangent.publish();
@@ -117,7 +117,7 @@ TEST_P(Assembler, TheJacobianIsTheResidualsDerivative) {
   EXPECT_LE(size(difference(central, exact)), 1e-6 * size(exact));
 }
 
-/// Without inertia, which is linear and large, nothing hides the internal force's tangent.
+/// Inertia is linear and large.  Without it nothing hides an error in the internal force's tangent.
 TEST_P(Assembler, TheJacobianOfTheInternalForceAlone) {
   state_.shift_a = 0;
   begin(everywhere_);
@@ -129,7 +129,7 @@ TEST_P(Assembler, TheJacobianOfTheInternalForceAlone) {
   EXPECT_LE(size(difference(central, exact)), 1e-6 * size(exact));
 }
 
-/// The same values whether they come with the residual or alone, and whatever stood in the matrix before.
+/// The tangent has the same values whether it comes with the residual or alone, and whatever the matrix held before.
 TEST_P(Assembler, ResidualAndTangentInOnePass) {
   begin(everywhere_);
   const Field r = residual(everywhere_, state_, 0);
@@ -159,7 +159,7 @@ TEST_P(Assembler, AllNumbersOfRanksAgree) {
   EXPECT_LE(size(difference(product, product_alone)), 1e-12 * size(product_alone));
 }
 
-/// An element's nodes meet at the step's end, or at the stage where the scheme takes its force there.
+/// An element's nodes meet where the scheme takes the force: at the step's end, or in the plain scheme at the stage.
 TEST_P(Assembler, CoincidentNodesAreNamed) {
   const int element = 5;
   const State usual = state_;
@@ -232,7 +232,7 @@ TEST(TangentMatrix, ThatIsLongerThan32BitsCountIsRefused) {
   }
 }
 
-/// The residual's own definition, from the elements' functions, where the force is PETSc's.
+/// In the plain scheme the residual is by definition the sum of the elements' functions at PETSc's stage.
 TEST(AssemblerPlain, TheResidualIsTheElementsSum) {
   const network::Network network = network_of(branched);
   System system(network, {Scheme::plain, 0, elements::Tangent::exact}, PETSC_COMM_WORLD);
@@ -243,7 +243,7 @@ TEST(AssemblerPlain, TheResidualIsTheElementsSum) {
     const auto from = motion.at(s.stage.t), to = motion.at(s.stage.t + s.stage.dt);
     x[node] = from.x + s.stage.alpha_f * (to.x - from.x);
     v[node] = from.v + s.stage.alpha_f * (to.v - from.v);
-    // The free nodes' accelerations lag so that theirs, too, is that of the time of the forces.
+    // Prescribed nodes accelerate as at the time of the forces, because the lagging accelerations of free nodes do too.
     a[node] = from.a + s.stage.alpha_f * (to.a - from.a);
   }
   Field expected(network.position.size(), Vector3::Zero());

@@ -5,13 +5,15 @@
 #include "../support/stages.hpp"
 #include "cablenet/bodies/rigid_body.hpp"
 
-/// Bodies in the assembled residual: tangents against differences for every way in which an element ends on one.
+/// These tests compare the tangent of bodies in the assembled residual with differences, for every way in which an
+/// element can end on a body.
 namespace cablenet::test {
 namespace {
 
 using scene::Scheme;
 
-/// First ends, second ends, both ends on two bodies and on one, one element and several, and a point mass.
+/// Bodies carry the first end of a cable, its second end, or both ends, on two bodies or on one.  There are cables of
+/// one element and of several, and there is a point mass.
 std::string scene_text(const std::string& extra, const std::string& rope) {
   const std::string body = "mass: 3, inertia: [0.4, 0.5, 0.6, 0.05, -0.02, 0.03], " + extra;
   return "points: {a: {position: [0, 0, 0], motion: {velocity: [0.3, 0, 0]}}, b: {position: [4, 1, -3], mass: 1}}\n"

@@ -18,7 +18,7 @@ const Span& span_of(const Network& network, const std::string& name) {
   return *std::find_if(network.spans.begin(), network.spans.end(), [&](const Span& s) { return s.name == name; });
 }
 
-/// A cable's nodes from end to end.
+/// The nodes of a cable from end to end.
 std::vector<SceneNode> nodes_of(const Network& network, const std::string& name) {
   const Span& span = span_of(network, name);
   std::vector<SceneNode> nodes{network.elements[at(span.first_element)].node[0]};
@@ -30,7 +30,7 @@ std::vector<SceneNode> nodes_of(const Network& network, const std::string& name)
   return nodes;
 }
 
-/// Unstretched arc length of each of a cable's nodes.
+/// The unstretched arc length of each node of a cable.
 std::vector<double> arcs_of(const Network& network, const std::string& name) {
   const Span& span = span_of(network, name);
   std::vector<double> arcs{0};
@@ -215,7 +215,7 @@ cables:
       {"test.yaml:", "cables.bc", "node_velocity", "point b"});
 }
 
-/// Whatever the order in which the scene names its cables.
+/// The order in which the scene names its cables makes no difference.
 TEST(Build, AVelocityFromAnotherCableIsThePointsOwn) {
   const std::string points = R"(
 points: {a: {position: [0, 0, 0], motion: fixed}, b: {position: [4, 0, 0]}, c: {position: [8, 0, 0]}}

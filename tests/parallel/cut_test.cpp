@@ -43,7 +43,7 @@ std::vector<int> members(const std::vector<bool>& set) {
   return found;
 }
 
-/// A path with equal branches hung on it at equal distances.
+/// A path on which equal branches hang at equal distances.
 Edges comb(int trunk, int branches, int branch) {
   Edges edges = path(trunk);
   for (int b = 0; b < branches; ++b)
@@ -54,7 +54,7 @@ Edges comb(int trunk, int branches, int branch) {
   return edges;
 }
 
-/// Compares with what the slow elimination of all others leaves.
+/// Compares the interface graph with what the slow elimination of all other vertices leaves.
 void expect_interface_graph(int vertices, const Edges& edges, const std::vector<bool>& interface) {
   std::vector<bool> others = interface;
   others.flip();
@@ -109,7 +109,7 @@ TEST(CutNetwork, SeparateCablesAreBalanced) {
   EXPECT_LT(found.imbalance(), 0.05);
 }
 
-/// Many cables at one node, a body's say: cutting its edges costs one interface vertex in all.
+/// Many cables hang on one node, such as a body.  Cutting any number of its edges costs one interface vertex.
 TEST(CutNetwork, AHubsBranchesAreSharedOut) {
   constexpr int branches = 600, branch = 5;
   Edges edges;

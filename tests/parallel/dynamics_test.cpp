@@ -25,7 +25,7 @@ scene::Time time_of(const Case& item, double end, double step) { return {0, end,
 const Case energy_momentum{"energy_momentum", Scheme::energy_momentum, 1};
 const Case generalized_alpha{"generalized_alpha", Scheme::generalized_alpha, 0.8};
 
-/// Horizontal at first and let go, its top shaken: accelerations are not zero at the start.
+/// A horizontal chain is let go while its top is shaken, so accelerations are not zero at the start.
 const std::string shaken = R"(
 environment: {gravity: 9.81}
 points:
@@ -84,7 +84,7 @@ cables: {chain: {type: rope, from: a, to: b, elements: 3, length: 6}}
 )";
   const Trajectory slow(falling, time_of(energy_momentum, 1e-3, 1e-3), 0, PETSC_COMM_WORLD);
   EXPECT_EQ(slow.outputs.size(), 2u);
-  // The centre of mass falls, whatever the cable does.
+  // Whatever the cable does, mass times acceleration sums up to the weight and the constant force.
   Vector3 push = slow.a[SceneNode(0)];
   for (SceneNode node(0); node.value() < slow.a.size(); ++node) {
     const double mass = 0.5 * 2 * (node.value() < 2 ? 0.5 : 1);
@@ -95,7 +95,7 @@ cables: {chain: {type: rope, from: a, to: b, elements: 3, length: 6}}
 
 namespace {
 
-/// How far the total energy strays, of a chain whose top moves as said.
+/// The range of the total energy of a chain whose top has the given motion.
 double imbalance(const std::string& motion, double step) {
   const std::string undamped = R"(
 environment: {gravity: 9.81}
@@ -121,7 +121,7 @@ TEST(DynamicsRun, EnergyMomentumBalancesTheWorkOfMovedPoints) {
   EXPECT_LE(coarse, 0.3);
 }
 
-/// Newton gets too few iterations for the large step.
+/// Newton's method gets too few iterations for the large step.
 TEST_P(Dynamics, ARetriedStepGoesOnAndGrowsBack) {
   const Option few("-snes_max_it", "3");
   const Option tight("-snes_atol", "1e-9");
@@ -139,7 +139,7 @@ TEST_P(Dynamics, ARetriedStepGoesOnAndGrowsBack) {
 
 namespace {
 
-/// In the middle of its first step, at its end exactly, an element's two moved ends meet.
+/// The element ab is as long as point a moves in the first step, so that its two ends meet exactly at the step's end.
 const std::string meeting = R"(
 points:
   a: {position: [0, 0, 0], motion: {velocity: [1, 0, 0]}}

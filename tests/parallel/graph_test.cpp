@@ -20,10 +20,10 @@ std::vector<bool> flags(int vertices, const std::vector<int>& set) {
 
 struct Order {
   std::vector<int> order;
-  std::vector<int> later;   ///< neighbours left, fill included, per vertex in the order
+  std::vector<int> later;   ///< per vertex in the order: number of neighbours left, fill included
 };
 
-/// Fails the test unless the order has every vertex that is not kept once.
+/// The order of elimination of a graph.  The test fails unless every vertex that is not kept is in it exactly once.
 Order order_of(int vertices, const Edges& edges, const std::vector<int>& kept = {}) {
   Order found;
   found.order = partition::elimination_order(graph_of(vertices, edges), flags(vertices, kept));
@@ -59,7 +59,7 @@ TEST(EliminationOrder, TreesWithOneKeptVertexHaveNoFill) {
   }
 }
 
-/// A body with many cables: whatever is left of the last one may stand behind it.
+/// A hub stands for a body with many cables.  The last arm's vertices may come after it.
 TEST(EliminationOrder, AHubComesAfterAllItsArmsButOne) {
   constexpr int arms = 200, length = 5, hub = 37, vertices = arms * length + 1;
   Edges edges;
@@ -123,7 +123,7 @@ TEST(EliminationOrder, RingRunsAround) {
 }
 
 TEST(EliminationOrder, KeptVerticesCountAsNeighbours) {
-  // A star between three kept ends is not peeled or contracted; what hangs on its arms is.
+  // The middle of a star between three kept ends is neither peeled nor contracted.  What hangs on its arms is peeled.
   const Edges edges{{0, 1}, {1, 2}, {1, 3}, {1, 4}, {4, 5}, {0, 6}, {6, 7}};
   const Order found = order_of(8, edges, {0, 2, 3});
   EXPECT_EQ(found.order.back(), 1);
@@ -155,7 +155,7 @@ TEST(EliminationOrder, HangingBranchesGoBeforeLoops) {
 
 TEST(EliminationOrder, NetsAreDissected) {
   constexpr int side = 24;
-  // Row after row leaves `side` neighbours to each of side^2 vertices.
+  // An elimination row by row would leave `side` neighbours to each of side^2 vertices.
   const std::vector<int> later = order_of(side * side, grid(side)).later;
   EXPECT_LT(std::accumulate(later.begin(), later.end(), 0), side * side * side / 2);
 }

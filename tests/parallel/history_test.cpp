@@ -23,7 +23,7 @@ namespace {
 
 const std::vector<std::string> columns{"time", "free.x"};
 
-/// Every rank its own file; gone at the end.
+/// Every rank has a file of its own, which is removed at the end.
 class HistoryTest : public testing::Test {
 protected:
   void TearDown() override { fs::remove(path_); }

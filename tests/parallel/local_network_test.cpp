@@ -21,7 +21,7 @@ protected:
   Table<SceneNode, bool> held_ = held_nodes(network_);
   partition::LocalNetwork here_ = partition::make_local_network(network_, partition_, rank_of(PETSC_COMM_WORLD));
 
-  /// How often each scene index turns up on all ranks together.
+  /// How often each index occurs on all ranks together.
   template <class Number>
   std::vector<int> counts(const std::vector<Number>& found, std::size_t size) const {
     std::vector<int> count(size, 0);

@@ -19,7 +19,7 @@ cables:
   side: {type: damped, from: {cable: ab, at: 3}, to: c, elements: 5}
 )";
 
-/// Per node: half of each element's mass, and the point's.
+/// Per node: half the mass of each of its elements, and the point mass.
 Table<SceneNode, double> lumped_mass(const network::Network& network) {
   Table<SceneNode, double> mass(network.position.size(), 0);
   for (const auto& e : network.elements)
@@ -109,7 +109,7 @@ cables: {chain: {type: rope, from: top, to: tip, elements: 6}}
     const Vector3 load = node == tip ? Vector3(1, 0, 4) : Vector3(0, 0, 0);
     EXPECT_LE((unstrained[node] - Vector3(0, 0, -9.81 * mass[node]) - load).norm(), 1e-12) << "node " << node.value();
   }
-  // From the tip up; the sideways force at the tip is what is left.
+  // The stretched lengths are found from the tip upwards.  Only the sideways force at the tip is not in balance then.
   std::vector<double> stretched(network.elements.size());
   for (std::size_t e = stretched.size(); e-- > 0;)
     stretched[e] = 1 + ((tension += 0.5 * 0.5 * 9.81), tension) / 2000, tension += 0.5 * 0.5 * 9.81;

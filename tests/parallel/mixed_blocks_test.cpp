@@ -10,7 +10,7 @@
 #include "../support/scenes.hpp"
 #include "cablenet/solve/network_pc.hpp"
 
-/// Nodes of a network taken for bodies, whose blocks have 6 or 7 unknowns.
+/// These tests treat nodes of a network as bodies, whose blocks have 6 or 7 unknowns.
 using namespace cablenet;
 using namespace cablenet::test;
 using partition::LocalNetwork;
@@ -22,7 +22,7 @@ constexpr double any_work = 1e9;
 using Matrix = petsc::Handle<Mat, MatDestroy>;
 using Vector = petsc::Handle<Vec, VecDestroy>;
 
-/// Unknowns of a block, by its solver number and whether it is of the interface.
+/// The number of unknowns of a block, by its solver number and by whether it belongs to the interface.
 using Rule = std::function<int(int number, bool shared)>;
 
 LocalNetwork local_network(const network::Network& network, const Rule& rule) {
@@ -37,7 +37,8 @@ LocalNetwork local_network(const network::Network& network, const Rule& rule) {
   return local;
 }
 
-/// Not symmetric.  Bodies' large entries are on the other diagonal, so that their rows must be exchanged.
+/// The blocks are not symmetric.  The large entries of a body's block are on the other diagonal, so that its rows have
+/// to be exchanged.
 void add_block(Mat matrix, const partition::Blocks& blocks, SolverNumber i, SolverNumber j) {
   const int rows = blocks.size(i), columns = blocks.size(j);
   for (int r = 0; r < rows; ++r)
@@ -81,7 +82,7 @@ public:
     pc->attach(shell);
   }
 
-  /// |x - y| / |y| of the solution x of A x = A y.
+  /// The relative error |x - y| / |y| of the solution x of A x = A y.
   double error(int seed = 3) {
     petsc::check(KSPSetOperators(ksp_, matrix, matrix));
     Vector exact, b, x;
@@ -141,7 +142,7 @@ TEST_P(MixedBlocks, AreSolvedExactly) {
   EXPECT_EQ(problem.pc->pivots().singular_node, SolverNumber());
 }
 
-/// A factorisation of half the matrix would take the other half for its mirror.
+/// A symmetric factorisation reads only half of the matrix and would give a wrong solution.
 TEST_P(MixedBlocks, AreNotTakenForSymmetric) {
   const auto& [scene, named] = GetParam();
   Problem problem(network_of(scene.text), named.rule, true);

@@ -100,7 +100,7 @@ std::vector<NamedScene> scenes() {
   return all;
 }
 
-/// EA/L 1e9 N/m and nodes of 1 kg.
+/// An array of elements of 1 m, with EA/L = 1e9 N/m and nodes of 1 kg.
 network::Network stiff_array() {
   network::Network network = network_of(array);
   for (auto& material : network.materials) {
@@ -140,7 +140,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, NetworkPcOf,
                            return std::get<0>(item.param).name + (plain ? "_symmetric" : "");
                          });
 
-/// At the longer step nobody can do better than eps |A| |x|, some 1e-12 |b|.
+/// At the longer step no method can leave less than eps |A| |x|, some 1e-12 |b|.
 TEST(NetworkPc, KeepsItsDigitsOnStiffCables) {
   for (const Scheme scheme : {Scheme::energy_momentum, Scheme::plain}) {
     EXPECT_LE(Problem(stiff_array(), scheme, 1e-3).relative_residual(), 1e-12);

@@ -21,7 +21,7 @@ protected:
   int ranks_ = size_of(PETSC_COMM_WORLD);
   Table<SceneNode, bool> held_ = held_nodes(network_);
 
-  /// Elements between free nodes, as pairs of solver numbers.
+  /// The elements between free nodes, as pairs of solver numbers.
   Edges edges() const {
     Edges edges;
     for (const auto& element : network_.elements)
@@ -31,7 +31,7 @@ protected:
     return edges;
   }
 
-  /// Per solver number.
+  /// Per solver number: does it belong to the interface?
   std::vector<bool> on_interface() const {
     std::vector<bool> found(at(partition_.first_number.back()), false);
     for (const SolverNumber number : partition_.interface.number) found.at(at(number)) = true;
@@ -143,7 +143,8 @@ TEST_P(Partition, AnElementBelongsToTheOwnerOfAFreeNode) {
     std::set<int> allowed;
     for (const SceneNode node : network_.elements[e].node)
       if (!held_[node]) allowed.insert(partition_.node_owner[node]);
-    // One that is held at both ends may be anywhere where there are rows to say that something is wrong with it.
+    // An element that is held at both ends may belong to any rank with rows in the solver's vectors: these can show a
+    // failure of the element.
     const int owner = partition_.element_owner[e];
     if (allowed.empty() && partition_.first_number[at(owner)] < partition_.first_number[at(owner) + 1])
       allowed.insert(owner);
@@ -160,7 +161,7 @@ TEST_P(Partition, NoRankIsLeftOutOfALargeNetwork) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Partition, testing::ValuesIn(kinds_of_networks),
                          [](const auto& scene) { return scene.param.name; });
 
-/// Three ranks cut both nets; the strip's few interface nodes are eliminated first though the scene has them last.
+/// Three ranks cut both nets.  The strip's few interface nodes are eliminated first, though the scene has them last.
 const std::string two_nets = R"(
 nets:
   panel: {type: rope, corners: [[0, 0, 0], [14, 0, 0], [14, 0, -8], [0, 0, -8]], meshes: [14, 8]}
@@ -169,7 +170,7 @@ nets:
 
 INSTANTIATE_TEST_SUITE_P(TwoNets, Partition, testing::Values(NamedScene{"two_nets", two_nets}));
 
-/// From both its ends in turns.
+/// The numbers run along the chain from both its ends in turns.
 TEST(PartitionNumbers, RunAlongAChain) {
   const network::Network network = network_of(chain);
   const partition::Partition partition = partition::make_partition(network, PETSC_COMM_WORLD);

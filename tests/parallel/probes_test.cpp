@@ -15,7 +15,7 @@ using namespace cablenet::test;
 
 namespace {
 
-/// A scene, its system on all ranks, and the row of a state as a map from column names; the same on every rank.
+/// A scene and its system on all ranks.  The row of a state is a map from column names, the same on every rank.
 class Observed {
 public:
   explicit Observed(const std::string& text)
@@ -74,7 +74,7 @@ TEST(Probes, AHangingChainAtRest) {
   Observed chain(hanging);
   const Field zero(chain.network().position.size(), Vector3::Zero());
   Field x = chain.network().position;
-  const double weight = 0.5 * 9.81, EA = 2000;   // per element
+  const double weight = 0.5 * 9.81, EA = 2000;   // the weight of one element
   double strain = 0, gravity = 0;
   for (int e = 0; e < 6; ++e) {
     const auto& [above, below] = chain.network().elements[at(e)].node;

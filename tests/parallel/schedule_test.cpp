@@ -8,7 +8,7 @@ using cablenet::solve::Schedule;
 
 namespace {
 
-/// All times up to the end, each step as planned.
+/// All times up to the end, where each step is taken as the schedule plans it.
 std::vector<double> times(Schedule& schedule) {
   std::vector<double> found{schedule.time()};
   while (!schedule.at_end() && found.size() < 10000) {

@@ -25,7 +25,7 @@ void add_bodies(Mesh& mesh) {
   mesh.body_box_attitude = numbered(4 * total_bodies, -1);
 }
 
-/// Two elements, on the last rank, and the bodies.
+/// A mesh of two elements, which are on the last rank, and of the bodies.
 Mesh mesh_with_bodies() {
   const bool mine = rank_of_world() == size_of_world() - 1;
   Mesh mesh;
@@ -63,7 +63,7 @@ void write_frame(Series& series, const Mesh& mesh, int frame) {
 
 Series::Options frames_alone(int frames_per_segment) { return {frames_per_segment, 1e9, "hash", "1.2.3"}; }
 
-/// -1, -1 where there is no such dataset.
+/// The shape of a dataset, or -1, -1 if there is none of that name.
 std::array<int, 2> shape_of(hid_t file, const std::string& name) {
   const hid_t dataset = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
   if (dataset < 0) return {-1, -1};
@@ -75,7 +75,7 @@ std::array<int, 2> shape_of(hid_t file, const std::string& name) {
   return {static_cast<int>(size[0]), static_cast<int>(size[1])};
 }
 
-/// Every FILE:DATASET of an index with the shape that it claims has that shape.
+/// Every dataset FILE:DATASET that an index lists has the shape that the index states.
 void expect_listed_shapes(const fs::path& folder, const char* index) {
   const std::string text = text_of(folder / index);
   const std::regex pattern("Dimensions=\"(\\d+) (\\d+)\">([^:<]*):([^<]*)<");

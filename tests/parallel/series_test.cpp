@@ -15,7 +15,8 @@ namespace {
 constexpr int total_nodes = 17;
 constexpr int total_elements = 16;
 
-/// Rows of `total` on this rank: none on `empty`, the others' shares as 3 : 1.
+/// The first of this rank's rows and their number.  Rank `empty` has none; every other rank has 3/4 of the rows that
+/// are left, and the last one the rest.
 std::pair<int, int> share(int total, int empty) {
   const int size = size_of_world();
   std::vector<int> count(static_cast<std::size_t>(size), 0);
@@ -109,7 +110,7 @@ void expect_frame(hid_t file, int frame) {
   }
 }
 
-/// The FILE:GROUP of every step's points, in order.
+/// The FILE:GROUP of the points of every step, in order.
 std::vector<std::string> listed_frames(const fs::path& folder) {
   const std::string text = text_of(folder / "cables.xmf");
   const std::regex pattern(">([^>]*)/points<");

@@ -21,7 +21,7 @@ double drawn_length(const std::vector<Vector3>& points) {
   return length;
 }
 
-/// An inextensible cable between two ends: where it is expected to be steep, slack or nearly taut.
+/// An inextensible cable of length L between two ends.
 struct Hung {
   const char* name;
   Vector3 a, b;
@@ -33,7 +33,7 @@ class Catenary : public testing::TestWithParam<Hung> {};
 
 }   // namespace
 
-/// Between the nodes of a fine division the curve is nearly straight, and its length is what the arcs say.
+/// With many elements the curve is nearly straight between two nodes, so chords are nearly as long as arcs.
 TEST_P(Catenary, NodesLieEvenlyOnACurveOfTheLengthBetweenTheEnds) {
   const auto& [name, a, b, L] = GetParam();
   constexpr int elements = 4000;
@@ -47,7 +47,7 @@ TEST_P(Catenary, NodesLieEvenlyOnACurveOfTheLengthBetweenTheEnds) {
     const double ratio = (points[i] - points[i - 1]).norm() / L * elements;
     if (!(ratio > 1 - 1e-2 && ratio < 1 + 1e-4)) ++uneven;
   }
-  // At a sharp turn alone a chord may be much shorter than its arc.
+  // Only at a sharp turn may a chord be much shorter than its arc.
   EXPECT_LE(uneven, 3) << name;
 }
 
@@ -58,8 +58,8 @@ TEST_P(Catenary, CoarseNodesAreTheFineOnes) {
   for (std::size_t i = 0; i < coarse.size(); ++i) EXPECT_LE((coarse[i] - fine[64 * i]).norm(), 1e-9 * L) << name;
 }
 
-/// T cos(angle) is the same along a catenary and T sin(angle) grows with the arc: the tangents' slopes are linear in
-/// it.
+/// Along a catenary T cos(angle) is constant and T sin(angle) grows linearly with arc length.  So the slope of the
+/// tangent, tan(angle), is linear in arc length.
 TEST_P(Catenary, HangsInEquilibrium) {
   const auto& [name, a, b, L] = GetParam();
   const double h = std::hypot(b.x() - a.x(), b.y() - a.y());
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Hung{"taut", {0, 0, 0}, {10, 3, 2}, std::sqrt(113.0)}),
     [](const auto& item) { return item.param.name; });
 
-/// Neighbouring nodes must not coincide, whatever the number of elements.
+/// Whatever the number of elements, neighbouring nodes must not coincide.
 TEST(CatenaryShape, AHairpinsNodesLieApart) {
   for (const double height : {0.0, 1.0, -2.5, 4.9})
     for (int elements = 2; elements < 12; ++elements) {

@@ -6,7 +6,8 @@
 #include "cablenet/petsc/queries.hpp"
 #include "cablenet/system/static_forces.hpp"
 
-/// Water and bed in the assembled residual: tangents against differences, for everything that they act on.
+/// These tests compare the tangent of water and bed in the assembled residual with differences, for everything that
+/// water and bed act on.
 namespace cablenet::test {
 namespace {
 
@@ -24,8 +25,8 @@ struct Named {
   std::string name, text;
 };
 
-// Cables, points and bodies lie between z = 0 and -3.2: the waves' surface goes through them, and the soft bed's first
-// contact is as deep as some nodes are apart.
+// Cables, points and bodies lie between z = 0 and -3.2.  The surface of the waves crosses them.  The bed is so soft
+// that contact sets in over a range of depths as large as the distance between some nodes.
 const std::string bed = "  seabed: {level: -2.2, stiffness: 150, damping: 40, friction: 0.3, friction_velocity: 0.1}\n";
 const std::string profile = "current: {profile: [[-2.5, 0.2, -0.4, 0.1], [-1.2, 0.9, 0.3, -0.2], [-0.6, 1.4, 0.1, 0]]}";
 const std::string waves =
@@ -40,7 +41,7 @@ const std::vector<Named> settings{
     {"All", "  fluid: {density: 1025, " + profile + ", " + waves + "}\n" + bed},
 };
 
-/// A branched cable that the surface and the bed cut, with a point of each kind.
+/// A branched cable that crosses the surface and the bed, with a point of each kind.
 const std::string branched = R"(
 points:
   tow: {position: [0, 0, 0], motion: {harmonic: {amplitude: [0.1, 0.2, 0.3], period: 0.8, phase: 20}}, mass: 5}
@@ -55,7 +56,7 @@ cables:
   float: {type: slack, from: {cable: trunk, at: 2.05}, to: buoy, elements: 1, length: 0.9}
 )";
 
-/// First ends, second ends, both ends on one body and on two, and a point mass.
+/// Bodies carry the first end of a cable, its second end, or both ends, on one body or on two.  There is a point mass.
 std::string bodies_text(const std::string& extra) {
   const std::string body = "mass: 3, inertia: [0.4, 0.5, 0.6, 0.05, -0.02, 0.03], " + extra +
                            "volume: 0.03, center_of_buoyancy: [0.02, -0.03, 0.1], drag: {linear: [3, 4, 5, 0.3, 0.4, "
@@ -117,7 +118,7 @@ network::Network network_of(const Named& setting, const Named& thing) {
   return network::build_network(scene::read_scene(text, "test.yaml"));
 }
 
-/// Nothing turns.
+/// Gives all free nodes and bodies this velocity; no body turns.
 void fill_velocity(const System& system, const Vector3& velocity, Vec v) {
   const partition::LocalNetwork& network = system.assembler.network();
   double* values = nullptr;
@@ -128,7 +129,7 @@ void fill_velocity(const System& system, const Vector3& velocity, Vec v) {
   petsc::check(VecRestoreArray(v, &values));
 }
 
-/// The tangent that comes with the residual, or alone.
+/// The tangent times s.direction, computed with the residual or alone.
 system::Vector tangent_along(System& system, const Stages& s, bool with_residual) {
   system::TangentMatrix tangent = system.assembler.make_tangent();
   const system::Vector r = system.assembler.make_vector();
@@ -147,7 +148,7 @@ protected:
   system::ForceRule rule_{GetParam().method.scheme, GetParam().method.xi, elements::Tangent::exact};
 };
 
-/// With inertia, without it, which would hide much, and without velocities too.
+/// The tangent is exact with inertia and without, because inertia would hide errors, and without velocities too.
 TEST_P(SurroundedTangent, IsTheResidualsDerivative) {
   System system(network_, rule_, PETSC_COMM_WORLD);
   Stages s(system, GetParam().method.radius, GetParam().method.dt);
@@ -156,7 +157,7 @@ TEST_P(SurroundedTangent, IsTheResidualsDerivative) {
   for (const auto& [v, a] : {std::pair{shift_v, shift_a}, {shift_v, 0.0}, {0.0, 0.0}, {0.0, shift_a}}) {
     s.shift_v = v;
     s.shift_a = a;
-    // Friction turns round within friction_velocity, to which h shift_v has to be small.
+    // Friction reverses within friction_velocity, so h shift_v has to be small compared with it.
     const system::Vector expected = slope(system, s, 7e-5 / std::max(shift_v, 70.0));
     for (const bool with_residual : {true, false})
       EXPECT_LE(relative_difference(tangent_along(system, s, with_residual), expected), 3e-8)
@@ -202,7 +203,7 @@ protected:
   system::ForceRule rule_{Scheme::plain, 0, elements::Tangent::exact};
 };
 
-/// At a time at which the waves are elsewhere than at 0.
+/// The time is not 0, so that waves that are taken at a wrong time show.
 TEST_P(Instant, TheMassMatrixIsTheForcesDerivativeByTheAcceleration) {
   System system(network_of(setting_, thing_), rule_, PETSC_COMM_WORLD);
   Stages s(system, 0.5);
@@ -223,7 +224,7 @@ TEST_P(Instant, TheMassMatrixIsTheForcesDerivativeByTheAcceleration) {
   EXPECT_LE(relative_difference(times_direction(system, s, mass), slope(system, s, 1)), 1e-10);
 }
 
-/// In a frame that moves as the prescribed nodes do, where statics has its waves calmed.
+/// Statics works in a frame that moves as the prescribed nodes do, with the waves calmed.
 TEST_P(Instant, TheStaticTangentIsTheForcesDerivative) {
   Named still = thing_;
   if (const std::size_t law = still.text.find("{harmonic"); law != std::string::npos)

@@ -64,7 +64,7 @@ namespace {
 
 constexpr double of_rounding = 1e-9;
 
-/// The verdict on the last of these residuals.
+/// Does Newton's method end at the last of these residual norms?  The test fails if it ends before.
 bool ends(const std::vector<double>& norms, bool kept, bool is_retry = false) {
   solve::NewtonConvergence convergence;
   bool verdict = false;

@@ -8,7 +8,7 @@
 #include "cablenet/partition/graph.hpp"
 #include "networks.hpp"
 
-/// Graphs from pairs of vertices, random ones, and what elimination does to them, found the slow way.
+/// Tests make graphs from pairs of vertices or at random, and find out in a slow and simple way what elimination does.
 namespace cablenet::test {
 
 using Edges = std::vector<std::pair<int, int>>;
@@ -26,8 +26,8 @@ inline partition::Graph graph_of(int vertices, const Edges& edges) {
 }
 
 struct Eliminated {
-  std::vector<int> later;            ///< per vertex in `order`: neighbours when it goes
-  std::vector<std::set<int>> left;   ///< per vertex: neighbours at the end, or when it went
+  std::vector<int> later;            ///< per vertex in `order`: number of neighbours when it is eliminated
+  std::vector<std::set<int>> left;   ///< per vertex: neighbours when it was eliminated, or else at the end
 };
 
 inline Eliminated eliminate(int vertices, const Edges& edges, const std::vector<int>& order) {
@@ -46,10 +46,10 @@ inline Eliminated eliminate(int vertices, const Edges& edges, const std::vector<
   return result;
 }
 
-/// 0 .. count - 1, always the same for a seed.
+/// A number from 0 to count - 1, which is always the same for a seed.
 inline int draw(int count, int seed) { return static_cast<int>((noise(seed) + 0.5) * 0.999 * count); }
 
-/// The same graph under other names: vertex i becomes result[i].
+/// Random names for the vertices of a graph: vertex i becomes result[i].
 inline std::vector<int> shuffled(int vertices, int seed) {
   std::vector<int> name(at(vertices));
   std::iota(name.begin(), name.end(), 0);
@@ -63,7 +63,7 @@ inline Edges path(int vertices) {
   return edges;
 }
 
-/// A tree whose vertex i > 0 hangs on an earlier one within `reach`, its vertices shuffled.
+/// A tree in which vertex i > 0 hangs on one of the `reach` vertices before it.  The vertices are then shuffled.
 inline Edges random_tree(int vertices, int reach, int seed) {
   const std::vector<int> name = shuffled(vertices, seed);
   Edges edges;
@@ -72,7 +72,8 @@ inline Edges random_tree(int vertices, int reach, int seed) {
   return edges;
 }
 
-/// Vertex i > 1 halves an edge, runs beside one, or hangs on an earlier vertex; its vertices shuffled.
+/// A graph in which vertex i > 1 halves an edge, runs beside an edge, or hangs on an earlier vertex.  The vertices are
+/// then shuffled.
 inline Edges random_series_parallel(int vertices, int seed) {
   const std::vector<int> name = shuffled(vertices, seed);
   Edges edges{{0, 1}};

@@ -12,11 +12,11 @@
 #include "cablenet/scene/read.hpp"
 #include "cablenet/system/assembler.hpp"
 
-/// Scenes from text, their networks on any communicator, and nodal fields in the scene's numbering, by which runs on
-/// different numbers of ranks are compared.
+/// Tests make scenes from text, and networks of them on any communicator.  Nodal fields are in the scene's numbering,
+/// so that runs on different numbers of ranks can be compared.
 namespace cablenet::test {
 
-/// Per scene node.
+/// A vector per scene node.
 using Field = Table<SceneNode, Vector3>;
 
 inline int rank_of(MPI_Comm communicator) {
@@ -31,7 +31,8 @@ inline int size_of(MPI_Comm communicator) {
   return size;
 }
 
-/// A rope of 0.5 kg/m and EA 2000 N, one that is slack in compression, and the sections in `text`.
+/// A scene of the sections in `text`, with three cable types: a rope, one that is slack in compression, and a damped
+/// one.
 inline scene::Scene scene_of(const std::string& text) {
   const std::string types =
       "cable_types:\n"
@@ -52,7 +53,7 @@ inline Table<SceneNode, bool> held_nodes(const network::Network& network) {
   return held;
 }
 
-/// Noise in -1/2 .. 1/2, the same everywhere.
+/// Noise in -1/2 .. 1/2, the same on every rank and machine.
 inline double noise(int index) {
   const double value = std::sin(12.9898 * index + 0.37) * 43758.5453;
   return value - std::floor(value) - 0.5;
@@ -73,7 +74,7 @@ struct System {
         partition(partition::make_partition(whole, communicator)),
         assembler(partition::make_local_network(whole, partition, rank_of(communicator)), rule, communicator) {}
 
-  /// The free nodes' part of a field.
+  /// The free nodes' part of a field, as a vector of the solver.
   system::Vector vector(const Field& field) const {
     system::Vector vector = assembler.make_vector();
     double* array = nullptr;
@@ -85,7 +86,7 @@ struct System {
     return vector;
   }
 
-  /// On every rank; zero at prescribed nodes.  Collective.
+  /// The field of a vector of the solver, on every rank; zero at prescribed nodes.  Collective.
   Field field(Vec vector) const {
     Field field(network.position.size(), Vector3::Zero());
     const double* array = nullptr;
@@ -104,7 +105,7 @@ struct System {
   system::Assembler assembler;
 };
 
-/// Largest component.
+/// The largest absolute component.
 inline double size(const Field& field) {
   double largest = 0;
   for (const Vector3& value : field) largest = std::max(largest, value.cwiseAbs().maxCoeff());
@@ -122,7 +123,7 @@ inline double sum_over_ranks(double value, MPI_Comm communicator = PETSC_COMM_WO
   return value;
 }
 
-/// A PETSC option for the time of a test.
+/// Sets a PETSc option as long as this object lives.
 class Option {
 public:
   Option(std::string name, const std::string& value) : name_(std::move(name)) {

@@ -3,7 +3,7 @@
 
 #include <iostream>
 
-/// Prints on rank 0 only and lets one rank's failure fail every rank, naming the rank.
+/// A failure on one rank fails the test on every rank, and the failing rank is named.
 class RankVerdicts : public testing::EmptyTestEventListener {
   void OnTestPartResult(const testing::TestPartResult& result) override {
     int rank = 0;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-/// Small scenes of each kind of network, by name.
+/// The tests share these small scenes, one of each kind of network.
 namespace cablenet::test {
 
 inline const std::string chain = R"(
@@ -43,7 +43,7 @@ points:
 cables: {c: {type: rope, from: a, to: b, elements: 2}}
 )";
 
-/// Every free node lies alone between two held ones: a graph without edges.
+/// Every free node lies alone between two held ones, so the graph of free nodes has no edges.
 inline const std::string no_edges = R"(
 points:
   a: {position: [0, 0, 0], motion: fixed}
@@ -58,7 +58,7 @@ cables:
   ac: {type: rope, from: a, to: c, elements: 2}
 )";
 
-/// The same two nodes joined twice, and a cable that is held everywhere.
+/// Two cables join the same two nodes, and one cable has no free node.
 inline const std::string doubled = R"(
 points:
   a: {position: [0, 0, 0], motion: fixed}

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-/// A folder for the files of a series, and what is in them.
+/// Tests write the files of a series into a folder and read them back.
 namespace cablenet::test {
 
 inline int rank_of_world() {
@@ -27,7 +27,7 @@ inline int size_of_world() {
   return size;
 }
 
-/// A folder of its own for the test, the same on every rank; gone at the end.
+/// A test with a folder of its own, the same on every rank.  The folder is removed at the end.
 class SeriesTest : public testing::Test {
 protected:
   void SetUp() override {

@@ -3,7 +3,7 @@
 
 #include "networks.hpp"
 
-/// States within a step, and tangents against differences of residuals at them.
+/// Tests compare tangents with differences of residuals, at a state within a step.
 namespace cablenet::test {
 
 /// base + scale * noise, the same on any number of ranks.
@@ -22,7 +22,7 @@ inline system::Vector shifted(const System& system, Vec base, double scale, int 
   return result;
 }
 
-/// A stage near the drawn state, and the shifts by which v and a follow x, as TSALPHA2 has them.
+/// A stage near the drawn state, and the shifts dv/dx and da/dx of TSALPHA2.
 struct Stages {
   /// @param radius  rho_infinity of the generalised-alpha method
   Stages(const System& system, double radius, double dt = 0.02, double t = 0.1) : stage{t, dt, 1 / (1 + radius)} {
@@ -57,7 +57,7 @@ inline system::Vector residual_at(System& system, const Stages& s, double step) 
   return r;
 }
 
-/// The residual's central difference along s.direction.
+/// The central difference of the residual along s.direction.
 inline system::Vector slope(System& system, const Stages& s, double h) {
   system::Vector plus = residual_at(system, s, h);
   const system::Vector minus = residual_at(system, s, -h);
@@ -79,7 +79,7 @@ inline double largest(Vec vector) {
   return size;
 }
 
-/// Their largest difference over the second one's largest value.
+/// The largest difference of two vectors over the largest value of `expected`.
 inline double relative_difference(Vec found, Vec expected) {
   system::Vector difference;
   petsc::check(VecDuplicate(found, difference.out()));
@@ -87,7 +87,7 @@ inline double relative_difference(Vec found, Vec expected) {
   return largest(difference) / largest(expected);
 }
 
-/// All unknowns on every rank, in the scene's numbering.  Collective.
+/// All unknowns in the scene's numbering, on every rank.  Collective.
 inline std::vector<double> everywhere(const System& system, Vec vector) {
   constexpr std::size_t most = 7;
   const partition::LocalNetwork& network = system.assembler.network();

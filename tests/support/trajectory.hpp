@@ -9,7 +9,7 @@
 
 namespace cablenet::test {
 
-/// A run and what its observers were told.
+/// A run, and what its observers were told.
 class Trajectory {
 public:
   Trajectory(const std::string& text, const scene::Time& time, double interval, MPI_Comm communicator)

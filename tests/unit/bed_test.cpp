@@ -42,7 +42,7 @@ TEST(BedForce, NoFrictionWhereDampingHoldsTheNodeBack) {
   EXPECT_EQ(force.head<2>().norm(), 0);
 }
 
-/// The mean of many instants on the path.
+/// The mean of the force at many instants on the path.
 double mean_of_instants(double p, double rise, double dt) {
   constexpr int count = 20000;
   double sum = 0;
@@ -64,7 +64,7 @@ TEST(BedForce, OverAStepIsTheMeanOnThePath) {
   EXPECT_GT(at({0, 0, bed.level + 0.1}, {0, 0, -1}, 0.3).force.z(), 0);
 }
 
-/// However short the path, no digits are lost.
+/// However short the path is, no digits are lost.
 TEST(BedForce, OverAVanishingStepIsThatOfTheInstant) {
   for (const double p : {-0.04, 0.01, 0.04, 0.3})
     for (double dt = 1e-4; dt > 1e-14; dt *= 0.1) {
@@ -73,7 +73,7 @@ TEST(BedForce, OverAVanishingStepIsThatOfTheInstant) {
     }
 }
 
-/// A node that comes down at any speed is stopped within the step, and the force for that grows from zero without a
+/// A node that comes down at any speed is stopped within the step.  The force that stops it grows from zero without a
 /// jump.
 TEST(BedForce, GrowsFromZeroWhereAPathTouchesTheBed) {
   constexpr double dt = 0.1;

@@ -85,7 +85,7 @@ TEST(PointInWater, FloatsHalfUnderWhereItWeighsHalf) {
   EXPECT_EQ(point_load(buoy, still, 0, g, {{0, 0, 1}, {2, 0, 0}, {0, 3, 0}}).force.norm(), 0);
 }
 
-/// Froude and Kriloff's force and the added mass: (rho V + added) a_water on what rests.
+/// Waves push a point at rest by the Froude-Kriloff force and by its added mass: (rho V + added) a_water.
 TEST(PointInWater, WavesPushWhatRests) {
   Fluid fluid = sea();
   fluid.current.clear();

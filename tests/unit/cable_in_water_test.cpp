@@ -15,7 +15,7 @@ constexpr double L = 1.6, g = 9.81;
 const Shift follow{1, 40, 1700};
 
 struct CableInWaterTest : testing::Test {
-  /// The same states whichever tests run.
+  /// Each test has the same states, whichever other tests run.
   void SetUp() override { std::srand(1); }
 };
 
@@ -47,7 +47,7 @@ void expect_exact_tangent(const CableInWater& c, const EndMotion& m, const Water
       const auto at = [&](double step) {
         return water_loads<false>(c, L, moved(m, j, step * Vector3::Unit(k), f), water, f);
       };
-      // Fourth order.
+      // These differences are of fourth order.
       const EndLoads a = at(h), b = at(-h), a2 = at(2 * h), b2 = at(-2 * h);
       for (int i : {0, 1}) {
         const Vector3 difference = (8 * (a.on[i] - b.on[i]) - (a2.on[i] - b2.on[i])) / (12 * h);
@@ -86,7 +86,7 @@ TEST_F(CableInWaterTest, TangentIsExactAcrossTheSurface) {
   for (int n = 0; n < 60; ++n) {
     EndMotion m = random_motion(0.4);
     if (n % 2 == 0)
-      // Nearly level: crossing with its diameter.
+      // The cable is nearly level, so that the surface crosses its diameter.
       for (Vector3& x : m.x) x.z() = environment::surface_height(fluid, x, 0.7).z + 0.03 * (x.z() - 0.4);
     expect_exact_tangent(rope, m, VaryingWater<true>{fluid, 0.7, g}, {1, 3, 11}, 1e-5);
     const HalfWetness wet =
@@ -111,7 +111,7 @@ TEST_F(CableInWaterTest, TangentIsExactAtRestAlongTheFlowAndWithoutDrag) {
   }
 }
 
-/// All kinds of water agree where they describe the same.
+/// All kinds of water give the same loads where they describe the same water.
 TEST_F(CableInWaterTest, UniformWaterIsVaryingWaterWithOneLayer) {
   Fluid fluid;
   fluid.surface = 50;
@@ -145,7 +145,7 @@ TEST_F(CableInWaterTest, DragAcrossAndAlongTheFlow) {
   const UniformWater water{{1.5, 0, 0}, g};
   EXPECT_TRUE(total(weightless, resting({0, 0, 0}, {0, L, 0}), water).isApprox(Vector3(55 * 2.25 * L, 0, 0), 1e-13));
   EXPECT_TRUE(total(weightless, resting({0, 0, 0}, {L, 0, 0}), water).isApprox(Vector3(2.5 * 2.25 * L, 0, 0), 1e-13));
-  // At 60 degrees: un = 1.5 sin 60 across, ut = 1.5 cos 60 along; a stretched cable has no more of it.
+  // At 60 degrees un = 1.5 sin 60 across and ut = 1.5 cos 60 along the cable.  A stretched cable has no more drag.
   const Vector3 e(0.5, 0, std::sqrt(0.75)), across(std::sqrt(0.75), 0, -0.5);
   const Vector3 expected = 55 * 2.25 * 0.75 * L * across + 2.5 * 2.25 * 0.25 * L * e;
   EXPECT_TRUE(total(weightless, resting(Vector3::Zero(), 1.2 * L * e), water).isApprox(expected, 1e-13));
@@ -175,7 +175,7 @@ TEST_F(CableInWaterTest, BuoyancyIsThatOfTheWettedLength) {
   EXPECT_NEAR(total(thin, resting({0, 0, 0.2 * L}, {0, 0, -0.8 * L}), water).z(), 0.8 * full, 1e-12);
   EXPECT_NEAR(total(thin, resting({0, 0, -L}, {L, 0, -L}), water).z(), full, 1e-12);
   EXPECT_EQ(total(thin, resting({0, 0, L}, {L, 0, L}), water).norm(), 0);
-  // Level: the smooth step at a quarter of the diameter.
+  // A level cable's wetness is the smooth step: it lies a quarter of its diameter below the surface.
   EXPECT_NEAR(total(rope, resting({0, 0, -0.02}, {L, 0, -0.02}), water).z(), full * 0.75 * 0.75 * 1.5, 1e-12);
   EXPECT_NEAR(total(rope, resting({0, 0, 0}, {L, 0, 0}), water).z(), full / 2, 1e-12);
 }
@@ -186,7 +186,7 @@ TEST_F(CableInWaterTest, WavesPushWhatRests) {
   fluid.waves.resize(1);
   fluid.waves[0].direction = {1, 0};
   const CableInWater dragless{4, 3.1, 0, 0, 0.08};
-  // Along the crest, so that the water's acceleration is one along the cable.
+  // The cable lies along the crest, so that the water's acceleration is the same everywhere on it.
   const EndMotion m = resting({0.5, 0, -4}, {0.5, L, -4});
   const environment::WaterMotion motion = environment::water_motion(fluid, m.x[0], 0.7);
   const Vector3 expected = L * (7.1 * motion.acceleration + Vector3(0, 0, 4 * g));

@@ -78,7 +78,7 @@ TEST(CableForce, IsTheGradientOfStrainEnergy) {
   }
 }
 
-/// Chords whose lengths run from slack to taut in every combination.
+/// Steps between slack and taut chords, in every combination.
 std::vector<ChordStep> steps(double xi) {
   const Vector3 a(1.2, -0.9, 0.7), b(1.0, 1.1, -0.6), c(0.6, 0.5, -0.4), d(-0.7, 0.4, 0.3);
   std::vector<ChordStep> all;

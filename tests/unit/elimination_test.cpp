@@ -21,7 +21,7 @@ double noise(int index) {
   return value - std::floor(value) - 0.5;
 }
 
-/// A block matrix with entries where `edges` are, its blocks of the sizes given; kept ones last.
+/// A matrix of blocks of the given sizes, with entries on the diagonal and where `edges` are.  Kept blocks come last.
 struct System {
   std::vector<int> size;
   int eliminated;
@@ -75,7 +75,7 @@ Eigen::VectorXd random_vector(Eigen::Index count) {
   return Eigen::VectorXd::NullaryExpr(count, [&] { return noise(++seed); });
 }
 
-/// Eliminates, solves the kept system densely, and goes back.
+/// Solves s by a forward sweep, a dense solution of the kept system, and a backward sweep.
 Eigen::VectorXd solve(const System& s, bool symmetric, const Eigen::VectorXd& b) {
   Elimination elimination = s.elimination(symmetric);
   Eigen::VectorXd w = b;
@@ -139,7 +139,7 @@ const std::vector<Case> cases{
 
 class EliminationOf : public testing::TestWithParam<Case> {};
 
-/// Stiff elements between light nodes: K + shift m on the diagonal, shift m/4 - K beside it.
+/// A chain of stiff elements with light nodes.  An element adds K + mass/2 on the diagonal, and mass/4 - K beside it.
 System stiff_chain(int nodes, double stiffness, double mass, bool symmetric) {
   Edges edges;
   for (int i = 1; i < nodes; ++i) edges.emplace_back(i - 1, i);
@@ -158,7 +158,7 @@ System stiff_chain(int nodes, double stiffness, double mass, bool symmetric) {
   return s;
 }
 
-/// A stiff chain on nodes of 1 kg with a light body, that attachments far from its centre turn, after every second.
+/// A stiff chain of nodes of 1 kg.  After every second node comes a light body, which is attached far from its centre.
 System stiff_bodies(int blocks) {
   Edges edges;
   std::vector<int> size;

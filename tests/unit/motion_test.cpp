@@ -10,7 +10,7 @@
 namespace cablenet::scene {
 namespace {
 
-/// v and a are the first and second differences of x, to the differences' own error.
+/// v and a agree with the first and second differences of x, to the error of the differences.
 void expect_consistent(const Motion& motion, double t) {
   const double h = 1e-4;
   const Kinematics before = motion.at(t - h), here = motion.at(t), after = motion.at(t + h);

@@ -97,7 +97,7 @@ TEST(ReadBodies, APlateIsABodyAndMoreIsNone) {
   EXPECT_TRUE(body_of("inertia: [0.1, 0.2, 0.3]").inertia);
   EXPECT_TRUE(body_of("inertia: [1, 2, 3.000000001]").inertia);
   EXPECT_NE(refusal("inertia: [1, 2, 3.00001]").find("at most the sum of the other two"), std::string::npos);
-  // A plate of moments 1, 2, 3, turned by 30 degrees about x.
+  // The inertia is that of a plate with the moments 1, 2, 3, turned by 30 degrees about x.
   EXPECT_TRUE(body_of("inertia: [1, 2.25, 2.75, 0, 0.4330127018922193, 0]").inertia);
   EXPECT_NE(refusal("inertia: [1, 2, 2, 0, 2, 0]").find("positive definite"), std::string::npos);
 }

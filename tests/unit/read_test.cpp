@@ -28,7 +28,7 @@ const std::string types = "cable_types: {rope: {mass_per_length: 1, axial_stiffn
 const std::string ends = "points: {a: {position: [0, 0, 0], motion: fixed}, b: {position: [1, 0, 0]}}\n";
 const std::string one_cable = "cables: {c: {type: rope, from: a, to: b, elements: 1}}\n";
 
-/// The smallest scene, with `time` written as given.
+/// The smallest scene, in which `time` is written as given.
 Scene with_time(const std::string& time) {
   return read_scene(types + ends + one_cable + "time: {" + time + "}\n", "small.yaml");
 }

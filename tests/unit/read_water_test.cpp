@@ -19,7 +19,7 @@ using Notes = std::vector<std::string>;
 
 const std::string time = "time: {end: 1, step: 0.1}\n";
 
-/// A scene of one body of three lines; `environment` begins on line 4.
+/// A scene of one body, which takes three lines.  `environment` begins on line 4.
 Scene in_environment(const std::string& environment) {
   return read_scene("bodies:\n  stone: {mass: 2, position: [0, 0, -1], attachments: {}}\n" + time + "environment: {" +
                         environment + "}\n",
@@ -45,7 +45,7 @@ Scene with_body(const std::string& keys, const std::string& environment) {
                     "water.yaml");
 }
 
-/// Without the one that the body is held by nothing.
+/// The notes of a scene, without the note that nothing holds the body.
 Notes water_notes(Notes notes) {
   std::erase_if(notes, [](const std::string& note) { return note.find("moves freely") != std::string::npos; });
   return notes;
@@ -233,7 +233,7 @@ TEST(ReadWater, NotesOfTheWavesBed) {
 }
 
 TEST(ReadWater, NotesOfWavesThatBreak) {
-  // In deep water a wave of 4 s is 25 m long.
+  // In deep water a wave with a period of 4 s is 25 m long.
   const std::string sea = "gravity: 9.81, fluid: {density: 1025, surface: 0, depth: 500, waves: ";
   EXPECT_EQ(environment_notes(sea + "[{height: 3.54, period: 4}]}"), Notes{});
   EXPECT_EQ(environment_notes(sea + "[{height: 1, period: 4}, {height: 3.56, period: 4}]}"),

@@ -116,7 +116,7 @@ TEST_P(RigidBodyRotation, TheQuaternionsSignIsTheOneGiven) {
   }
 }
 
-/// R' = R skew(w), and the acceleration of an attachment is the second derivative of its position.
+/// The velocity and acceleration of an attachment are the first and second derivatives of its position.
 TEST_P(RigidBodyRotation, AttachmentsMoveAsTheAttitudeTurns) {
   const Properties p = body(GetParam());
   const RotationState s = stage_of(GetParam());
@@ -132,7 +132,7 @@ TEST_P(RigidBodyRotation, AttachmentsMoveAsTheAttitudeTurns) {
   EXPECT_LE((now.position * now.position.transpose() - Matrix3::Identity()).norm(), 1e-14);
 }
 
-/// Euler's equations in the world frame: turn^T (R (I w' + w x I w + drag - torque)), the quaternion's gauge apart.
+/// Apart from the quaternion's gauge force, the own forces are turn^T R (I w' + w x I w + drag - torque).
 TEST_P(RigidBodyRotation, OwnForcesAreEulersEquations) {
   const Properties p = with_drag(body(GetParam()));
   const RotationState s = stage_of(GetParam());
@@ -149,7 +149,8 @@ TEST_P(RigidBodyRotation, OwnForcesAreEulersEquations) {
 
 INSTANTIATE_TEST_SUITE_P(All, RigidBodyRotation, testing::Values(Rotation::quaternion, Rotation::euler));
 
-/// A force at an attachment does the same work on the body as along the attachment's way, whatever the step.
+/// Whatever the step, a force at an attachment does the same work as torque on the turning body as it does along the
+/// attachment's path.
 TEST(RigidBodyConserving, LeversDoTheWorkOfTheirForces) {
   const Properties p = body(Rotation::quaternion);
   const RotationState begin = rotation_state(Rotation::quaternion, tilted, Vector3(3, -2, 4));

@@ -25,7 +25,7 @@ Fluid sea(double depth) {
   return fluid;
 }
 
-/// Of fourth order.
+/// The derivative of f at 0, by a difference of fourth order.
 template <class F>
 auto difference(F&& f, double h) {
   return ((8 * (f(h) - f(-h)) - (f(2 * h) - f(-2 * h))) / (12 * h)).eval();
@@ -141,7 +141,7 @@ TEST_P(WaterDerivatives, AreThoseOfTheValues) {
 
 INSTANTIATE_TEST_SUITE_P(Depths, WaterDerivatives, testing::Values(11.5, 60.0, 8000.0));
 
-/// At the still surface, to first order: d elevation/dt = vertical velocity.
+/// In linear theory the elevation rises with the water's vertical velocity at the still surface.
 TEST(SurfaceHeight, MovesWithTheWater) {
   Fluid fluid = sea(12);
   fluid.current.clear();

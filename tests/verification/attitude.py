@@ -15,14 +15,14 @@ def inverse(q):
 
 
 def turned(q, v):
-    """v, in body axes, in global ones."""
+    """v, which is given in body axes, in global axes."""
     q, v = np.asarray(q), np.asarray(v)
     twice = 2 * np.cross(q[..., 1:], v)
     return v + q[..., :1] * twice + np.cross(q[..., 1:], twice)
 
 
 def about(axis, angle):
-    """The turn about an axis."""
+    """The quaternion of a turn about an axis."""
     axis, angle = np.asarray(axis, dtype=float), np.asarray(angle, dtype=float)
     half = angle[..., None] / 2
     return np.concatenate([np.cos(half), np.sin(half) * axis / np.linalg.norm(axis)], axis=-1)
@@ -33,23 +33,23 @@ def matrix(q):
 
 
 def angle_between(p, q):
-    """Of the turn from p to q [rad], the same for -q."""
+    """The angle of the turn from p to q [rad], which is the same for -q."""
     return 2 * np.linalg.norm(product(inverse(p), q)[..., 1:], axis=-1).clip(max=1)
 
 
 def pitch(q):
-    """In degrees, of yaw, then pitch, then roll."""
+    """The pitch of q [deg], where yaw comes first, then pitch, then roll."""
     return np.degrees(np.arcsin(np.clip(2 * (q[..., 0] * q[..., 2] - q[..., 1] * q[..., 3]), -1, 1)))
 
 
 def six(inertia):
-    """A matrix of inertia as a scene has it: Ixx Iyy Izz Ixy Iyz Izx, the latter the integrals of x y dm and so on."""
+    """A matrix of inertia as a scene has it: Ixx Iyy Izz Ixy Iyz Izx.  Ixy is the integral of x y dm, and so on."""
     i, j = [0, 1, 2, 0, 1, 2], [0, 1, 2, 1, 2, 0]
     return (np.asarray(inertia)[i, j] * [1, 1, 1, -1, -1, -1]).tolist()
 
 
 class Turning:
-    """The attitude `q` and the body-axes angular velocity `w` of a body through a run."""
+    """The attitude `q` and the angular velocity `w` (body axes) of a body in all rows of a run."""
 
     def __init__(self, run, name):
         self.time = run["time"]
@@ -57,7 +57,7 @@ class Turning:
         self.w = np.column_stack([run[f"{name}.w{axis}"] for axis in "xyz"])
 
     def angular_momentum(self, inertia):
-        """In global axes, about the centre of gravity; `inertia` a matrix."""
+        """The angular momentum about the centre of gravity, in global axes.  @param inertia  a matrix, body axes"""
         return turned(self.q, self.w @ np.asarray(inertia))
 
     def energy(self, inertia):

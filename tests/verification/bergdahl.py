@@ -16,7 +16,7 @@ RAMP, SETTLED, CYCLES, SAMPLES = 3, 5, 7, 250
 
 
 def arc(H, V, weight, length):
-    """(dx, dz, vertical force at its end) of an elastic catenary that begins with the vertical force V."""
+    """(dx, dz, vertical force at the end) of an elastic catenary whose vertical force at the start is V."""
     end = V + weight * length
     slack = math.asinh(end / H) - math.asinh(V / H)
     dx = H / weight * slack + H * length / STIFFNESS
@@ -25,7 +25,7 @@ def arc(H, V, weight, length):
 
 
 def root(gaps, x, h=1e-6):
-    """Newton's method."""
+    """The x at which `gaps` is zero, by Newton's method from the given x."""
     x = np.array(x, float)
     for _ in range(30):
         tangent = np.array([(gaps(x + h * unit) - gaps(x - h * unit)) / (2 * h) for unit in np.eye(len(x))]).T
@@ -34,7 +34,7 @@ def root(gaps, x, h=1e-6):
 
 
 def pretension():
-    """(at the anchor, at the top) with a frictionless bed, wet below the surface and dry above."""
+    """The tension (at the anchor, at the top) of a chain on a frictionless bed, wet below the surface and dry above."""
     def gaps(unknowns):
         H, wet, dry = unknowns
         x1, z1, V = arc(H, 0, WET, wet)
@@ -47,7 +47,7 @@ def pretension():
 
 
 def circle(radius, period):
-    """The radius grows smoothly over the first cycles."""
+    """The motion of the top in a circle whose radius grows smoothly over the first cycles."""
     ramp = RAMP * period
     s = f"(t/{ramp})"
     share = f"(1 - step({ramp} - t)*(1 - {s}^3*(10 - 15*{s} + 6*{s}^2)))"
@@ -71,7 +71,7 @@ def chain(elements, stiffness=BED, motion="fixed", shape="catenary"):
 
 
 def check_pretension(verification):
-    """However hard the bed, wherever the chain is drawn."""
+    """The pretension is right however hard the bed is and wherever the chain is drawn."""
     anchor, top = pretension()
     for elements, stiffness, shape, limit in ((66, 3e5, "straight", 1e-3), (66, BED, "straight", 1e-3),
                                               (330, BED, "catenary", 1e-4)):
@@ -83,7 +83,7 @@ def check_pretension(verification):
 
 
 def largest_force(verification, radius, period, step):
-    """Mean of the cycles' largest force at the top."""
+    """The largest force at the top in a cycle, averaged over the cycles after the start."""
     scene = chain(66, motion=circle(radius, period))
     scene.update({"initial": "static", "time": {"end": CYCLES * period, "step": step}})
     scene["output"]["interval"] = period / SAMPLES

@@ -1,5 +1,6 @@
 """The Biomapper sled in a ship's full circle (examples/biomapper/circle.yaml, after WHOI Cable's example) against an
-independent lumped-mass run, good to 0.1 %: how deep it sinks, and the ship's largest tension from the circle on."""
+independent lumped-mass run that is good to 0.1 %.  Compared are how deep the sled sinks, and the largest tension at the
+ship from the circle on."""
 import pathlib
 
 import yaml
@@ -7,8 +8,8 @@ import yaml
 from support import Verification
 
 SCENE = pathlib.Path(__file__).resolve().parents[2] / "examples" / "biomapper" / "circle.yaml"
-BEFORE, DEEPEST, TENSION = 326.5, 942.8, 15192   # m, m, N
-CIRCLE = 2200                                     # s, its begin
+BEFORE, DEEPEST, TENSION = 326.5, 942.8, 15192   # depth before the circle [m], largest depth [m], largest tension [N]
+CIRCLE = 2200                                     # when the circle begins [s]
 
 
 def check(v, name, time_keys, elements, limit):

@@ -21,7 +21,7 @@ def swing(v, elements, step, body_keys, time_keys, end=10):
 
 
 def off_reference(run, elements):
-    """Differences of phi_cg and phi_body from the reference, row by row."""
+    """The differences of phi_cg and phi_body from the reference, row by row."""
     reference, turning = read_reference(f"body_pendulum_N{elements}.csv"), Turning(run, "cube")
     rows = rows_at(reference["t"], run["time"])
     phi_cg = np.arctan2(run["cube.x"], -run["cube.z"])

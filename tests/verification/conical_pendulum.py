@@ -16,8 +16,8 @@ def swing(verification, step, time_keys, position, velocity, interval=0.05, **ca
 
 
 def check_release(verification):
-    """The mass bounces on the rod at 11.9 rad/s, and that bounce's phase is most of the error.  Rod waves that the step
-    cannot follow blur the order in the largest error, but not in the mean square."""
+    """The mass bounces on the rod at 11.9 rad/s, and most of the error is in the phase of that bounce.  Waves in the
+    rod that the step cannot resolve blur the order of the largest error, but not that of the mean square."""
     reference = read_reference("conical_pendulum.csv")
     exact = np.column_stack([reference[axis] for axis in "xyz"])
     limits = {"paper": (PAPER, {2e-4: 1.2e-4, 1e-4: 4e-5, 5e-5: 1.1e-5}),
@@ -43,7 +43,8 @@ def check_steady(verification, which, length, omega):
     shape = np.column_stack([zeros, r, z]).tolist()
     node_velocity = np.column_stack([speed, zeros, zeros]).tolist()
     pull = MASS * np.hypot(GRAVITY, omega**2 * r[-1])
-    # Position, radius, height [m], tension [N].  A mid-point rule keeps a steady rotation exactly, but for its phase.
+    # Limits of the error in position, radius and height [m] and in tension [N].  A mid-point rule keeps a steady
+    # rotation exactly, but for the phase.
     limits = {"paper": (PAPER, 4e-6, 1e-8, 1.5e-8, 1.5e-7),
               "energy_momentum": (ENERGY_MOMENTUM, 3.5e-6, 1e-9, 1e-9, 2e-8)}
     for name, (time_keys, most_off, most_radius, most_height, most_tension) in limits.items():

@@ -15,7 +15,7 @@ def tumble(v, end, step, **time_keys):
 
 
 def against_reference(turning):
-    """Differences of the quaternions' components from the reference, row by row."""
+    """The differences of the quaternions' components from the reference, row by row."""
     reference = read_reference("torque_free_D1.csv")
     rows = rows_at(reference["t"], turning.time)
     exact = np.column_stack([reference[f"q{i}"] for i in range(4)])[rows]
@@ -45,7 +45,7 @@ def check_order(v):
 
 
 def check_turned_axes(v):
-    """The same body with other body axes moves in the same way."""
+    """A body that is described in other body axes moves in the same way."""
     place = product(about([1, 2, -3], 1.1), about([0, 1, 0], 0.7))   # the new axes in the old ones
     inertia = matrix(place).T @ INERTIA @ matrix(place)
     spin = turned(inverse(place), TUMBLING["angular_velocity"])
@@ -61,7 +61,7 @@ def check_turned_axes(v):
 
 
 def check_constant_torque(v):
-    """About a principal axis from rest: angle t^2/2 torque/inertia; the work is the kinetic energy."""
+    """A torque about a principal axis turns a body at rest by t^2/2 torque/inertia.  Its work is kinetic energy."""
     body = {"mass": 2.0, "inertia": [0.01, 0.02, 0.03], "position": [1, 2, 3], "torque": [0, 0.02, 0]}
     for name, keys in SCHEMES.items():
         off = []
@@ -82,7 +82,7 @@ def check_constant_torque(v):
 
 
 def check_constant_force(v):
-    """A parabola, for a body that turns or does not, and for a point mass."""
+    """Under a constant force bodies move in a parabola: one that turns, one that does not, and a point mass."""
     mass, gravity, force = 2.5, 9.81, np.array([1.0, -2.0, 30.0])
     start, speed = np.array([1.0, -2.0, 0.5]), np.array([0.3, 0.1, -0.2])
     load = {"mass": mass, "position": start.tolist(), "velocity": speed.tolist(), "force": force.tolist()}
@@ -106,7 +106,8 @@ def check_constant_force(v):
 
 
 def check_precession(v):
-    """A spinning symmetric body: about its angular momentum at |L|/I1, and about its own axis besides."""
+    """The axis of a spinning symmetric body goes round its angular momentum L at the rate |L|/I1, and the body also
+    turns about its own axis."""
     across, along, end, step = 0.02, 0.035, 4.0, 1e-3
     w = np.array([2.0, 0, 9.0])
     start = product(about([1, 1, 0], 0.8), about([0, 0, 1], -0.4))

@@ -9,7 +9,7 @@ HEAVY = {**STEEL, "density": 0.34 / (1.962e-5 * 1.713)}
 ENERGY_MOMENTUM = {"scheme": "energy_momentum"}
 MASS, LENGTH, GRAVITY = 0.26215, 1.713, 9.81
 STEPS = (2e-3, 1e-3, 5e-4, 2.5e-4)
-# Largest errors allowed with the step 1e-3 s [m].
+# The largest errors that are allowed with a step of 1e-3 s [m].
 SCHEMES = {
     "energy_momentum": (ENERGY_MOMENTUM, 2e-5),
     "no scheme named": ({}, 2e-5),
@@ -31,7 +31,7 @@ def fall(verification, step, time_keys, elements=24, end=0.5, interval=0.01, ste
 
 
 def error(run, reference):
-    """Largest distance of the free end from the reference [m]."""
+    """The largest distance of the free end from the reference [m]."""
     rows = rows_at(reference["t"], run["time"])
     return np.hypot(run["free.x"] - reference["X"][rows], run["free.z"] - reference["Z"][rows]).max()
 
@@ -63,7 +63,8 @@ def check_energy(verification):
 
 
 def check_order_in_size(verification):
-    """The element's error changes its sign about 0.3 s: clean orders are seen before; after, between fine meshes."""
+    """The element's error changes its sign at about 0.3 s.  Before that the orders are clean.  After that they are
+    clean between fine meshes alone."""
     reference = read_reference("free_fall_continuum.csv")
     meshes = (24, 48, 96, 192)
     early, at_04, time_errors = [], [], []

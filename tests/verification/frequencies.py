@@ -11,7 +11,7 @@ CHAIN_LENGTH, TIP_MASS, GRAVITY = 1.713, 0.3, 9.81
 
 
 def fitted_frequency(t, y):
-    """Least-squares fit of a constant and one harmonic: (frequency [Hz], rest over amplitude)."""
+    """Fits a constant and one harmonic by least squares.  @return (frequency [Hz], rest over amplitude)"""
     y = y - y.mean()
     turn = np.flatnonzero(y[:-1] * y[1:] < 0)
     crossings = t[turn] - y[turn] * (t[turn + 1] - t[turn]) / (y[turn + 1] - y[turn])
@@ -28,7 +28,8 @@ def fitted_frequency(t, y):
 
 
 def mode_from_pin(stiffness, mass, tip_mass, number):
-    """Mode `number` (from 1) of a chain of springs, held at node 0, 1 at its free end; mass per element."""
+    """Mode `number` (from 1) of a chain of springs that is held at node 0.  The mode is 1 at the free end.
+    @param mass  of an element"""
     n = len(stiffness)
     K, M = np.zeros((n + 1, n + 1)), np.zeros((n + 1, n + 1))
     for i, k in enumerate(stiffness):
@@ -68,7 +69,7 @@ class Frequencies:
         self.verification.check(f"{name}: frequency, relative to mesh and step", abs(found / stepped - 1), 1e-5)
 
     def string(self, kind, number):
-        """The probe lies at a quarter of the length, where modes 1 to 3 all move."""
+        """The string is observed at a quarter of its length, where modes 1 to 3 all move."""
         length, stretch, quarter = 10.0, 1 + 200 / 1e5, ELEMENTS // 4
         arc = np.linspace(0, stretch * length, ELEMENTS + 1)
         wave = np.sin(number * np.pi * arc / arc[-1])
@@ -84,7 +85,7 @@ class Frequencies:
         self.check("H1_string", kind, number, STRING, points, cables, 0, column)
 
     def hanging_chain(self, case, tip_mass, number):
-        """Starts with every element as long as its static tension makes it."""
+        """The chain starts with every element as long as its static tension makes it."""
         L = CHAIN_LENGTH / ELEMENTS
         weight = CHAIN["mass_per_length"] * L * GRAVITY
         tension = weight * (ELEMENTS - np.arange(ELEMENTS) - 0.5) + tip_mass * GRAVITY

@@ -5,13 +5,13 @@ from support import Verification, scene
 
 CORNERS = ((1, 1), (-1, 1), (-1, -1), (1, -1))
 MASS, GRAVITY, STIFFNESS = 10.0, 9.81, 2e4
-RISE, DISTANCE = 1.9, np.sqrt(2 * 0.7**2 + 1.9**2)   # of a cable
+RISE, DISTANCE = 1.9, np.sqrt(2 * 0.7**2 + 1.9**2)   # of one cable
 TENSION = MASS * GRAVITY / 4 * DISTANCE / RISE
 BOX = {"mass": MASS, "inertia": [0.5, 0.7, 0.9, 0.1, 0.02, -0.05], "position": [0, 0, 0],
        "attachments": {f"a{i}": [0.3 * x, 0.3 * y, 0.1] for i, (x, y) in enumerate(CORNERS)}}
 QUIET = {"angular_velocity": [0.02, 0.06, 0.1], "velocity": [0.1, 0.04, 0]}
 LIVELY = {"angular_velocity": [0.1, 0.2, 0.4], "velocity": [0.2, 0.1, 0]}
-# Body keys, elements a cable, step [s], limit of the energy's change over the initial kinetic energy.
+# Keys of the body, elements per cable, step [s], and the limit of the change of energy over the initial kinetic energy.
 CASES = {
     "lively": (LIVELY, 2, 5e-3, 2e-6),
     "quiet": (QUIET, 3, 1e-2, 2e-6),

@@ -6,15 +6,18 @@ from support import Verification, orders, read_reference
 
 RISER = {"diameter": 0.396, "mass_per_length": 165, "axial_stiffness": 5.0e8, "normal_drag": 1.0, "added_mass": 1.0}
 TOP, BOTTOM = [0, 0, -5], [-100, 0, -55]
-# The elastic catenary with 410.2955 N/m.
+# The forces on the ends of the elastic catenary with a weight in water of 410.2955 N/m.
 STATIC = {"bottom.fx": -11472.279, "bottom.fz": 24028.004, "top.fx": 11472.279, "top.fz": 45722.227}
-# 10 m sin(2 pi t/27 s), grown over the period before t = 0 by q^3 (6 q^2 - 15 q + 10), q = 1 + t/27 s.
+# The motion is 10 m sin(2 pi t/27 s).  Before t = 0 it grows over one period, with q^3 (6 q^2 - 15 q + 10) and
+# q = 1 + t/27 s.
 DRIVEN = "10*sin(2*pi*t/27)*(1 + step(-t)*(t/27)^3*(6*(t/27)^2 + 15*t/27 + 10))"
-PEERS = 1000          # what MoorDyn's own test allows at every sample [N]
-# The axis driven, or the wave's direction and phase; what was measured and a little more: largest and root mean square [N].
+PEERS = 1000          # difference that MoorDyn's own test allows at every sample [N]
+# The axis driven, or the wave's direction and phase.  Then the limits of the largest and of the root mean square
+# difference, a little above the measured ones [N].
 CASES = {"surge": ("x", 550, 130), "sway": ("y", 330, 110), "heave": ("z", 740, 200), "wave_0": ((0, 230), 920, 340),
          "wave_45": ((45, 165), 900, 340), "wave_90": ((90, 0), 600, 220)}
-# Digitised 0.6 kN above what the wave's next two periods show there; the lumped-mass model is 1.09 kN off as well.
+# Here the curve is digitised 0.6 kN above its value in the wave's next two periods, and the lumped-mass model is 1.09
+# kN off as well.
 ASTRAY = {"wave_45": 1.3}
 
 
@@ -41,7 +44,7 @@ def through_time(case, elements, step):
 
 
 def check_static(v):
-    """Against the elastic catenary, and the tensions against the table's analytic column, given to 10 N."""
+    """Compares forces with the elastic catenary, and tensions with the table's analytic column, given to 10 N."""
     errors = []
     for elements in (17, 34, 68):
         run = v.run(riser(elements))

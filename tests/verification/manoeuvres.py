@@ -1,5 +1,5 @@
-"""Tow points that turn, circle, heave or change speed after `initial: static`: the start moves with them, so that nothing
-happens before they do, and a tow that has become steady again is the static one."""
+"""Tow points turn, circle, heave or change speed after `initial: static`.  The static start moves with them, so that
+nothing happens before they do.  A tow that has become steady again is the static one."""
 import re
 
 import numpy as np
@@ -17,14 +17,14 @@ def law(x, y="0", z="0"):
     return {"position": [0, 0, 0], "motion": {"expression": {"x": x, "y": y, "z": z}}}
 
 
-# 2 m/s until 20 s, 3 m/s from 60 s on.
+# The tow point moves at 2 m/s until 20 s, and at 3 m/s from 60 s on.
 FASTER = law(f"2*t + 40*(({Q})^6 - 3*({Q})^5 + 2.5*({Q})^4)*(step(t - 20) - step(t - 60)) + (t - 40)*step(t - 60)")
-# A circle of 60 m radius to the left from 20 s on.
+# The tow point moves in a circle of 60 m radius to the left from 20 s on.
 CIRCLE = law("2*t + (60*sin((t - 20)/30) - 2*(t - 20))*step(t - 20)", "60*(1 - cos((t - 20)/30))*step(t - 20)")
 
 
 def u_turn():
-    """Waypoints every 10 s: ahead for 120 s, half a circle of 60 m radius, back."""
+    """Waypoints every 10 s.  The tow point goes ahead for 120 s, in half a circle of 60 m radius, and back."""
     points = []
     for t in range(0, 401, 10):
         angle = min(max((t - 120) / 30, 0), np.pi)
@@ -34,7 +34,7 @@ def u_turn():
 
 
 def tow(v, ship, end, **more):
-    """More points are more tow points, each with a cable of its own."""
+    """Runs a tow.  @param more  further tow points, each of which gets a cable and a sled of its own"""
     points = {"ship": ship, "sled": SLED}
     cables = {"cable": {"from": "ship", "to": "sled", "length": 100, "elements": 20}}
     for name, point in more.items():
@@ -50,7 +50,7 @@ def frame(run):
 
 
 def check_still(v, name, run, until, limit):
-    """Seen from the tow point nothing happens until then."""
+    """Seen from the tow point, nothing happens before `until`."""
     before = run["time"] <= until
     tension = run["cable.tension_from"][before]
     place = (run.vectors("sled") - run.vectors("ship"))[before]
@@ -75,11 +75,11 @@ def check_paths(v):
     v.at_least("circle: the sled is inside the tow point's circle by this part of its radius", inside, 0.1)
     v.check("circle: change of depth in the last 50 s, over length", np.ptp(circle["sled.z"][-100:]) / 100, 1e-3)
     check_still(v, "U-turn by waypoints", turn, 20, 1e-3)
-    check_end(v, "U-turn by waypoints", turn, slow, 4e-3)   # the depth still settles
+    check_end(v, "U-turn by waypoints", turn, slow, 4e-3)   # the limit is wide because the depth still settles
 
 
 def check_frames(v):
-    """What the tow points have in common is what the static start moves with."""
+    """The static start moves with the velocity that the tow points have in common."""
     aside = {"position": [0, 40, 0], "motion": {"velocity": [2.02, 0, 0]}}
     for name, run, expected in (
             ("heave", tow(v, law("2*t", z="0.5*sin(0.9*t)"), 100), [2, 0, 0]),

@@ -1,4 +1,5 @@
-"""Points that follow a law: what is written of them, the work they do, and the order of what hangs on them."""
+"""Points that follow a law: their motion as it is written, the work that they do, and the order of the scheme for a
+ball that hangs on them."""
 import numpy as np
 
 from support import Verification, energy_drift, orders, rows_at, scene
@@ -32,7 +33,7 @@ def natural_spline(table, t):
 
 
 def law(kind, t):
-    """Displacement, velocity, acceleration (rows, 3) of MOTIONS[kind], written out."""
+    """Displacement, velocity, acceleration (rows, 3) of MOTIONS[kind], by formulas of its own."""
     zero = 0 * t
     if kind == "velocity":
         v = np.tile([0.5, 0.2, 0.1], (len(t), 1))
@@ -68,7 +69,8 @@ def check_laws(v):
 
 
 def check_energy(v):
-    """energy_momentum: exact where a point moves evenly or not at all; on a curved path work is of second order."""
+    """The energy balance of energy_momentum is exact where a point is at rest or moves evenly.  On a curved path the
+    error of the work is of second order."""
     for kind, motion, force in (("fixed with a constant force", "fixed", (3, 1, 2)),
                                 ("velocity", MOTIONS["velocity"], (0, 0, 0))):
         run = hang(v, motion, 1e-3, ENERGY_MOMENTUM, force)
@@ -87,8 +89,9 @@ SOFT, TIP, SHAKEN_GRAVITY = {"mass_per_length": 0.5, "axial_stiffness": 500}, 0.
 
 
 def shaken_reference(times, step):
-    """Positions of the ball by the classical Runge-Kutta method on two elements; `times` multiples of `step`."""
-    half = 0.5   # unstretched length of an element
+    """Positions of the ball by the classical Runge-Kutta method, with two elements.
+    @param times  multiples of `step`"""
+    half = 0.5   # the unstretched length of an element
     m = SOFT["mass_per_length"] * half
     mass = np.array([[4 * m / 6, m / 6], [m / 6, 2 * m / 6 + TIP]])
     inverse, weight = np.linalg.inv(mass), SHAKEN_GRAVITY * np.array([[0, 0, m], [0, 0, m / 2 + TIP]])
@@ -123,7 +126,7 @@ def shaken_reference(times, step):
 
 
 def check_order(v):
-    """A ball on a heavy soft rope below a shaken point."""
+    """A ball hangs on a heavy soft rope below a shaken point."""
     points = {"top": {"position": [0, 0, 0], "motion": SHAKEN}, "ball": {"position": [0.8, 0, -0.6], "mass": TIP}}
     cable = {"from": "top", "to": "ball", "elements": 2}
     times = 0.02 * np.arange(51)

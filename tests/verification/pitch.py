@@ -1,4 +1,4 @@
-"""Bodies whose pitch passes 90 degrees: nothing to quaternions, a stop that says so to Euler angles."""
+"""Bodies whose pitch passes 90 degrees.  Quaternions take no notice.  With Euler angles the run stops and says why."""
 import re
 
 import numpy as np
@@ -24,7 +24,7 @@ def from_reference(name):
 
 
 def cases():
-    """(body keys, attitude at times, when the pitch passes 90 degrees or comes next to it)"""
+    """{name: (keys of the body, attitude as a function of times, when the pitch passes or nearly reaches 90 deg)}"""
     first = read_reference("torque_free_D3c.csv")
     start = {"orientation": {"quaternion": [first[f"q{i}"][0] for i in range(4)]},
              "angular_velocity": [first[f"w{i}"][0] for i in (1, 2, 3)]}
@@ -42,19 +42,19 @@ def body(keys, **more):
 
 
 def label(kind, name):
-    """A body's name."""
+    """The name of a body."""
     return f"{kind}_{name}".replace(" ", "_")
 
 
 def turned_start(keys, turn):
-    """The same motion as seen after a turn of the world."""
+    """The keys of a body that moves in the same way in a turned world."""
     start = keys.get("orientation", {"quaternion": [1, 0, 0, 0]})["quaternion"]
     return {**keys, "orientation": {"quaternion": product(turn, np.array(start)).tolist()}}
 
 
 def check_quaternions(v):
-    """The error is that of the same motion in a world turned so that the pitch stays small."""
-    turn = about([1, 0, 0], np.pi / 2)   # pitch then is what yaw was
+    """The error is as large as in a world that is turned so that the pitch stays small."""
+    turn = about([1, 0, 0], np.pi / 2)   # the pitch then is what was the yaw
     bodies = {label(place, name): body(keys if place == "here" else turned_start(keys, turn))
               for name, (keys, *_) in cases().items() for place in ("here", "away")}
     for scheme, time_keys in SCHEMES.items():
@@ -72,7 +72,7 @@ def check_quaternions(v):
 
 
 def check_angles_before(v):
-    """While the pitch stays below 60 degrees Euler angles are as accurate as quaternions."""
+    """As long as the pitch is below 60 degrees, Euler angles are as accurate as quaternions."""
     bodies = {label(rotation, name): body(keys, rotation=rotation)
               for name, (keys, *_) in cases().items() for rotation in ("quaternion", "euler")}
     for scheme, time_keys in SCHEMES.items():
@@ -104,7 +104,8 @@ def check_angles_stop(v):
 
 
 def check_states(v, what, run, attitude, keys):
-    """Every row before the stop is on the motion; the last one, at a time of the solver's own, has the right energy."""
+    """Every row before the stop is on the exact motion.  The last row is at a time that the solver chose, and has the
+    right energy."""
     turning, moments = Turning(run, "spinner"), np.diag(MOMENTS)
     exact = attitude(run["time"][:-1])
     v.check(f"{what}: error before the stop [rad]", angle_between(exact, turning.q[:-1]).max(), 1e-6)

@@ -8,7 +8,7 @@ FOOT, KIP = 0.3048, 4448.2216152605
 
 
 def michalos_birnstiel(v):
-    """Jayaraman & Knudson, Computers & Structures 14 (1981) 301: places of the load point, in feet."""
+    """Compares places of the load point with Jayaraman & Knudson, Computers & Structures 14 (1981) 301, in feet."""
     keys = {"mass_per_length": 3.16 * KIP / 1000 / FOOT, "axial_stiffness": 0.85 * 19000 * KIP}
     left, right = 412.8837 * FOOT, 613.0422 * FOOT
     places = []
@@ -95,7 +95,7 @@ def stayed_frame(v):
     v.close("stayed frame: what holds corner 4 [N]", tension["hold"], 1000, 1e-2)
 
 
-BED_STIFFNESS = 1e6   # Pa/m: the line sinks in by 8 mm, which counts 4e-5 of the forces
+BED_STIFFNESS = 1e6   # [Pa/m]; the line sinks in by 8 mm, which changes the forces by 4e-5
 
 # x, z, length, EA, w, on the bed, fAH, fAV, fBH, fBV, length on the bed: MoorPy's tests/test_catenary.py with no or the
 # least friction.
@@ -111,7 +111,7 @@ RUBBED = {0.1: (-96643.42877136687, -237751.75577183915), 5: (-96643.43501616362
 
 
 def moor(v, x, z, length, stiffness, w, on_bed, elements, friction=0):
-    """Forces of the cable's ends on their points, as MoorPy gives them: (fAH, fAV, fBH, fBV).
+    """The forces (fAH, fAV, fBH, fBV) of the cable's ends on their points, as MoorPy gives them.
 
     The bed lies so much lower than the anchor that the line rests at the anchor's height.
     """

@@ -1,4 +1,4 @@
-"""Stiff links between cables and a body come to the kinematic coupling with growing stiffness."""
+"""With growing stiffness, stiff links between cables and a body approach the kinematic coupling."""
 import numpy as np
 
 from attitude import Turning, angle_between
@@ -11,17 +11,17 @@ POINTS = {"left": {"position": [-0.6, 0.1, 1.2], "motion": "fixed"},
 BODY = {"mass": 2.0, "inertia": [0.02, 0.03, 0.025, 0.002, -0.001, 0.003], "position": [0, 0, 0],
         "velocity": [0.2, 0.5, 0], "angular_velocity": [0.5, -0.5, 1.0], "orientation": {"roll": 20},
         "attachments": {"a": [-0.15, 0.05, 0.1], "b": [0.2, -0.05, 0.08]}}
-# Shorter than the distance between their ends, so that they stay taut.
+# The cables are shorter than the distance between their ends, so that they stay taut.
 CABLES = {"one": {"from": "left", "to": "body.a", "length": 1.16, "elements": 3},
           "two": {"from": "body.b", "to": "right", "length": 1.1, "elements": 3}}
 SCHEMES = {"generalized_alpha 0.8": {"spectral_radius": 0.8}, "energy_momentum": {"scheme": "energy_momentum"}}
 END, STEP = 0.4, 2.5e-4
-CONVERGING = {"quaternion": (1e2, 1e3, 1e4), "euler": (1e3, 1e4)}   # over the rope's stiffness
+CONVERGING = {"quaternion": (1e2, 1e3, 1e4), "euler": (1e3, 1e4)}   # stiffnesses of the link over the rope's EA
 STIFF = (1e8, 1e10)
 
 
 def swing(v, rotation, time_keys, times_stiffer=None, step=STEP, end=END, rope=ROPE):
-    """@return the run, None where it did not come to its end"""
+    """@return the run, or None if it did not come to its end"""
     body = {**BODY, "rotation": rotation}
     if times_stiffer:
         body["coupling"] = {"rigid_link": {"axial_stiffness": times_stiffer * rope["axial_stiffness"]}}
@@ -36,7 +36,7 @@ def swing(v, rotation, time_keys, times_stiffer=None, step=STEP, end=END, rope=R
 
 
 def differences(kinematic, linked):
-    """Of the body's position [m] and attitude [rad] at the end; infinite where a run ended early."""
+    """The differences of the body's position [m] and attitude [rad] at the end; infinite if a run ended early."""
     if kinematic is None or linked is None:
         return np.inf, np.inf
     position = np.linalg.norm(linked.vectors("body")[-1] - kinematic.vectors("body")[-1])
@@ -44,7 +44,7 @@ def differences(kinematic, linked):
 
 
 def check_convergence(v, name, rotation):
-    """First order in 1/stiffness, until what is left is the difference between two second-order methods."""
+    """The difference is of first order in 1/stiffness, until only that between two second-order methods is left."""
     kinematic = swing(v, rotation, SCHEMES[name])
     factors = CONVERGING[rotation] + STIFF
     found = [differences(kinematic, swing(v, rotation, SCHEMES[name], factor)) for factor in factors]
@@ -58,7 +58,7 @@ def check_convergence(v, name, rotation):
 
 
 def check_remainder(v, name, rotation):
-    """What is left between a stiff link and none falls with the square of the time step."""
+    """The difference that is left between a very stiff link and none falls with the square of the time step."""
     off = [differences(swing(v, rotation, SCHEMES[name], None, step), swing(v, rotation, SCHEMES[name], 1e8, step))
            for step in (1e-3, 5e-4)]
     for quantity, values in zip(("position [m]", "attitude [rad]"), zip(*off)):
@@ -68,7 +68,7 @@ def check_remainder(v, name, rotation):
 
 
 def check_energy(v):
-    """Undamped ropes and links: the longer run keeps its energy, however stiff the link."""
+    """Ropes and links are undamped, and a longer run keeps its energy however stiff the link is."""
     rope = {**ROPE, "axial_damping": 0}
     for rotation in CONVERGING:
         for factor in (None, *STIFF):

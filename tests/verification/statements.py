@@ -8,7 +8,7 @@ GRAVITY = 9.81
 
 
 def check_free_flight(v):
-    """A thrown, turning, unstretched element: its middle falls in a parabola, its spin and energy stay."""
+    """An unstretched element is thrown and turns.  Its middle falls in a parabola; its spin and energy stay."""
     rope = {"mass_per_length": 0.2, "axial_stiffness": 5e3}
     length, down = 1.3, np.array([0, 0, -GRAVITY])
     velocities = np.array([[1.0, 2.0, 3.0], [0.5, -4.0, 5.0]])
@@ -26,14 +26,14 @@ def check_free_flight(v):
                 np.abs(speed - velocities.mean(axis=0) - down * t).max(), 3e-11)
         if keys is ENERGY_MOMENTUM:
             arm, turn = run.vectors("b") - run.vectors("a"), run.vectors("b", "v") - run.vectors("a", "v")
-            spin = np.cross(arm, turn)   # 12/mass of the angular momentum about the middle
+            spin = np.cross(arm, turn)   # the angular momentum about the middle, times 12/mass
             v.check(f"free flight, {name}: change of the angular momentum, relative",
                     np.abs(spin - spin[0]).max() / np.linalg.norm(spin[0]), 1e-11)
             v.check(f"free flight, {name}: drift of the energy", energy_drift(run), 1e-11)
 
 
 def fitted_pole(t, y, guess):
-    """s of the fit Re(A exp(s t)) to y, by Gauss-Newton."""
+    """The complex s for which Re(A exp(s t)) fits y best, by the Gauss-Newton method."""
     s = guess
     for _ in range(20):
         wave = np.exp(s * t)
@@ -62,7 +62,7 @@ def check_damping(v):
         rate = damping / (2 * mass)
         pole = complex(-rate, np.sqrt(stiffness / length / mass - rate**2))
         step = 2 * np.pi / pole.imag / 400
-        stepped = np.log((1 + pole * step / 2) / (1 - pole * step / 2)) / step   # of the mid-point rule
+        stepped = np.log((1 + pole * step / 2) / (1 - pole * step / 2)) / step   # the pole of the mid-point rule
         points = {"pin": HELD, "ball": {"position": [1.6, 0, 0], "mass": tip}}
         cable = {"from": "pin", "to": "ball", "elements": 1, "length": length}
         for scheme, keys in {"energy_momentum": ENERGY_MOMENTUM, "generalized_alpha 1": {"spectral_radius": 1},
@@ -104,7 +104,7 @@ def check_axial_dissipation(v):
 
 
 def bounce(t, length, slack, mass, stiffness):
-    """Height of a ball that falls `slack` on a string of this length, and bounces, again and again."""
+    """The height of a ball that falls by `slack` on a string of this length, and bounces again and again."""
     fall, omega, sag = np.sqrt(2 * slack / GRAVITY), np.sqrt(stiffness / mass), mass * GRAVITY / stiffness
     speed = GRAVITY * fall
     contact = 2 * (np.pi - np.arctan(speed / (omega * sag))) / omega

@@ -8,7 +8,7 @@ WATER = {"density": 1025}
 
 
 def slack_and_taut(v):
-    """A mass on two ropes of which one hangs loose, with and without compression in what is slack."""
+    """A mass hangs on two ropes of which one is loose, with and without compression in slack elements."""
     for tension_only in (False, True):
         keys = {"mass_per_length": 0.5, "axial_stiffness": 1e6, "tension_only": tension_only}
         points = {"a": fixed(0, 0, 0), "b": fixed(8, 0, 0), "m": {"position": [1, 0, -1], "mass": 100}}
@@ -40,7 +40,7 @@ def buoyant_line(v):
 
 
 def buoy_at_the_surface(v):
-    """A sphere that floats half out of the water: it displaces its own weight and its chain's in water."""
+    """A sphere floats half out of the water.  It displaces its own weight and that of its chain in water."""
     volume, mass = 2.0, 1100.0
     radius = (3 * volume / (4 * np.pi))**(1 / 3)
     keys = {"diameter": 0.03, "mass_per_length": 8, "axial_stiffness": 1e7}
@@ -72,8 +72,8 @@ def on_the_bed(v):
 
 
 def nets(v):
-    """A net held at its sides sags under its weight, and nets hang or stand in a current: told by their forces' balance
-    alone, as no point lies in them."""
+    """A net that is held at its sides sags under its weight, and nets hang or stand in a current.  No point lies in
+    them, so only the balance of forces is checked."""
     flat = [[0, 0, 0], [10, 0, 0], [10, 10, 0], [0, 10, 0]]
     upright = [[0, 0, 0], [10, 0, 0], [10, 0, -10], [0, 0, -10]]
     around = ["top", "right", "bottom", "left"]
@@ -90,7 +90,7 @@ def nets(v):
 
 
 def strangers(v):
-    """Cables in one scene that nothing joins, from 40 to 160 elements, are each what they are alone."""
+    """Cables of 40 to 160 elements that are not joined have the same shape in one scene as each has alone."""
     points, cables = {}, {}
     for i, n in enumerate((40, 80, 160)):
         points.update({f"a{i}": fixed(0, i, 0), f"b{i}": fixed(100, i, 0), f"m{i}": {"position": [50, i, 0]}})
@@ -103,7 +103,7 @@ def strangers(v):
 
 
 def none(v):
-    """Exit status 3, and a message that names the place; nothing that seems to be found."""
+    """A scene without equilibrium ends with exit status 3 and a message that names the place, and claims no result."""
     keys = {"diameter": 0.02, "density": 7800, "axial_stiffness": 1e6}
     ends = {"a": {"position": [0, 0, 0]}, "b": {"position": [10, 0, 0]}}
     cable = {"loose": {"from": "a", "to": "b", "elements": 5}}

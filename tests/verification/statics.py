@@ -1,19 +1,19 @@
-"""Hanging cables, inclined, taut, slack, loaded, against exact polygons from all kinds of drawn shapes, and their order
-towards the elastic catenary."""
+"""Hanging cables (inclined, taut, slack, loaded) reach exact polygons from all kinds of drawn shapes.  With more
+elements they approach the elastic catenary at second order."""
 import numpy as np
 
 from statics_support import TOLERANCE, at_rest, drawn, fixed, report_number, still
 from support import Verification, orders, read_reference
 
 SHAPES = ("straight", "catenary", "slack", "up", "crumpled", "nonsense")
-FEWER_SHAPES = ("catenary", "nonsense")   # where a coarser polygon is drawn in all
+FEWER_SHAPES = ("catenary", "nonsense")   # the shapes for the finer polygons; a coarser one is drawn in all shapes
 GRAVITY = 10
-# Elements of the coarsest of three meshes where N = 20 is too coarse for the order to be seen: sharp bends.
+# Elements of the coarsest of three meshes, for cables with sharp bends: their order does not show with 20 elements.
 COARSEST = {"E4_slack_deep": 80, "E5_near_fold": 2560, "E11_steep_down": 160, "E15_uplift_load": 40}
 
 
 class Case:
-    """A row of the reference."""
+    """A cable, which is a row of the reference."""
 
     def __init__(self, table, row):
         self.values = {key: column[row] for key, column in table.items()}
@@ -49,13 +49,13 @@ class Case:
         return still(keys, points, cables, history, GRAVITY)
 
     def force_error(self, run):
-        """Of the cable on a and of b on the cable, over the smaller."""
+        """The error of the forces on the ends a and b, over the smaller of the two forces."""
         found = np.array([-at_rest(run, "a", "f"), at_rest(run, "b", "f")])
         expected = np.array([[self["HA"], 0, self["VA"]], [self["HB"], 0, self["VB"]]])
         return np.abs(found - expected).max() / np.linalg.norm(expected, axis=1).min()
 
     def polygon_cuts(self, n):
-        """Cuts at the middle, the lowest and the loaded node of n equal elements, and where they are to be."""
+        """Cuts at the middle, the lowest and the loaded node of n equal elements, and these nodes' exact places."""
         size, w = self["L0"] / n, self["w"]
         pull = np.array([self["HA"], 0, self["VA"]])
         nodes = [np.zeros(3)]
@@ -74,7 +74,7 @@ class Case:
 
 
 def check_polygons(v, cases):
-    """Every shape ends at the polygon that the forces of the reference give."""
+    """From every drawn shape the cable comes to the polygon that the forces of the reference give."""
     worst = {}
     for case in cases:
         cuts, where = case.polygon_cuts(int(case.model[len("NPFEM_N"):]))
@@ -97,7 +97,8 @@ def check_polygons(v, cases):
 
 
 def continuum_errors(v, case, n):
-    """Of forces over the end's pull, and of the middle's or the loaded point's place over the length."""
+    """The errors of the forces over the pull at an end, and of the place of the middle or the loaded point over the
+    length."""
     s = case.loaded_at if case.loaded_at else 0.5 * case["L0"]
     run = v.run(case.scene("straight", {"m": (s, round(n * s / case["L0"])), "b": (case["L0"], n)}))
     name = "load" if case.loaded_at else "mid"
@@ -116,7 +117,7 @@ def check_orders(v, cases):
 
 
 def check_ranks(v, cases):
-    """More ranks find the same."""
+    """More ranks find the same equilibrium."""
     for case, shape in cases:
         cuts, _ = case.polygon_cuts(int(case.model[len("NPFEM_N"):]))
         for v.ranks in (1, 2, 3):

@@ -1,9 +1,9 @@
-"""What the scripts about equilibria share: scenes without `time`, drawn shapes, an elastic catenary."""
+"""The scripts about equilibria share scenes without `time`, drawn shapes and an elastic catenary."""
 import re
 
 import numpy as np
 
-TOLERANCE = 1e-8   # two solutions of one discrete problem: what rounding leaves of 1e-12
+TOLERANCE = 1e-8   # between two solutions of one discrete problem: rounding spoils the 1e-12 that the solver asks for
 
 
 def still(cable_types, points, cables, history, gravity=9.81, environment=(), **rooms):
@@ -27,7 +27,7 @@ def fixed(*position):
 
 
 def at_rest(run, name, kind=""):
-    """A vector of the only row."""
+    """A vector in the only row of a run."""
     return run.vectors(name, kind)[0]
 
 
@@ -36,7 +36,7 @@ def report_number(run, section, key):
 
 
 def drawn(shape, a, b, length, elements, random):
-    """A cable's `shape` from a to b: two words, or a polyline that is far from any equilibrium."""
+    """The key `shape` of a cable from a to b: one of two words, or a polyline that is far from any equilibrium."""
     a, b = np.array(a, float), np.array(b, float)
     if isinstance(shape, str) and shape in ("straight", "catenary"):
         return shape
@@ -78,7 +78,7 @@ class Catenary:
         self.h, self.v = np.exp(unknowns[0]), unknowns[1]
 
     def _at(self, s, h, v0):
-        """(x, z) at the unstretched length s from where the cable's pull is (h, v0)."""
+        """(x, z) at the unstretched length s from the place where the cable's pull is (h, v0)."""
         v = v0 + self.w * s
         x = h / self.w * (np.arcsinh(v / h) - np.arcsinh(v0 / h)) + h * s / self.stiffness
         z = (np.hypot(h, v) - np.hypot(h, v0)) / self.w + (v0 * s + 0.5 * self.w * s**2) / self.stiffness
@@ -97,5 +97,5 @@ class Catenary:
 
     @property
     def resting(self):
-        """Length on the bed."""
+        """The length that lies on the bed."""
         return self.length - self.v / self.w

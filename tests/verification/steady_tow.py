@@ -26,7 +26,7 @@ def tow_scene(case, n, moving, tail=(800, 0, -600)):
 
 
 def errors(case, run):
-    """Of the tail over the length, and of the force on the tow point, relative."""
+    """The error of the tail's place over the length, and the relative error of the force on the tow point."""
     tail = at_rest(run, "tail") - [case["tail_x"], 0, case["tail_z"]]
     pull = -at_rest(run, "tow", "f") - [case["tow_Tx"], 0, case["tow_Tz"]]
     return np.linalg.norm(tail) / case["L"], np.linalg.norm(pull) / case["tow_T"]
@@ -42,7 +42,7 @@ def check_exact(v, case):
 
 
 def check_ways(v, case):
-    """A moving ship, and other drawn shapes, come to the same."""
+    """A moving ship and other drawn shapes give the same equilibrium."""
     expected = v.run(tow_scene(case, 200, moving=False))
     ways = {"moving": tow_scene(case, 200, moving=True)}
     ways.update({name: tow_scene(case, 200, False, tail) for name, tail in TAILS.items()})
@@ -56,7 +56,7 @@ def check_ways(v, case):
 
 
 def check_stays(v, case):
-    """20 s from equilibrium on: nothing moves in the ship's frame."""
+    """In the first 20 s from equilibrium on, nothing moves in the ship's frame."""
     for moving in (False, True):
         scene = tow_scene(case, 100, moving)
         scene.update({"initial": "static", "time": {"end": 20, "step": 0.1}})
@@ -100,13 +100,13 @@ BIOMAPPER = {1: (988.412, 145.680, 15467.65, 77.1792), 2: (860.859, 477.074, 144
              4: (503.544, 835.500, 12047.87, 22.8394), 6: (329.565, 928.920, 12114.18, 15.1158),
              8: (241.608, 962.394, 13788.90, 11.3520), 10: (190.353, 977.558, 16753.04, 9.0901)}
 DRAWN_SLED = ([950, 0, -190], [700, 0, -700], [0, 0, -1000])
-# The same at 6 knots with loads per unstretched length, as they are here: integrated from the sled up by scipy's DOP853
-# to 1e-12, with the stretch in the shape.
+# The same at 6 knots, but with loads per unstretched length as in cablenet.  The curve was integrated from the sled
+# upwards by scipy's DOP853 to 1e-12, with the stretch in the shape.
 UNSTRETCHED = {"depth": 329.681306, "layback": 928.875553, "tension at the ship": 12113.218681}
 
 
 def biomapper(v, knots, drawn):
-    """WHOI Cable's towed sled: the cable's area follows from its mass and its weight in water."""
+    """WHOI Cable's towed sled.  The cable's area follows from its mass and its weight in water."""
     density, gravity, mass, weight, size = 1025, 9.81, 1.12, 8.89, 0.736
     keys = {"diameter": 0.0173, "area": mass / density - weight / (density * gravity), "mass_per_length": mass,
             "axial_stiffness": 1.2717e7, "normal_drag": 1.5, "tangential_drag": 0.01}

@@ -9,7 +9,7 @@ from support import HELD, Verification, scene
 LENGTH, SPEED, END = 3.0443, 7.72, 20.0
 ROD = {"mass_per_length": 6.57, "axial_stiffness": 1e10}
 STEPS = (0.01, 0.02, 0.05, 0.1, 0.2)
-# Per spectral radius and step: ("blows up at", time +- 0.05 s) or ("ends with", energy, its tolerance).
+# For each spectral radius and step: ("blows up at", time, to 0.05 s) or ("ends with", energy, tolerance of the energy).
 AVERAGED = {
     1: [("blows up at", 4.6), ("blows up at", 2.7), ("blows up at", 2.0), ("blows up at", 1.6), ("blows up at", 1.2)],
     0.8: [("ends with", 0.99966, 1e-5), ("ends with", 0.99862, 1e-5), ("ends with", 0.9913, 1e-4),
@@ -17,7 +17,7 @@ AVERAGED = {
     0.5: [("ends with", 0.99944, 1e-5), ("ends with", 0.99752, 1e-5), ("ends with", 0.9806, 1e-4),
           ("ends with", 0.9087, 1e-4), ("ends with", 0.6847, 1e-4)],
 }
-# With the step 0.01 s the energy of `plain` jumps in the first step and falls again to these.
+# With a step of 0.01 s the energy of `plain` jumps in the first step, and then falls to these values.
 PLAIN_END = {0.9: 1.492, 0.8: 1.4825, 0.5: 1.3904}
 
 

@@ -1,4 +1,4 @@
-"""What the verification scripts share: scenes, runs, references, checks."""
+"""The verification scripts share scenes, runs, references and checks."""
 import argparse
 import json
 import pathlib
@@ -15,7 +15,7 @@ HELD = {"position": [0, 0, 0], "motion": "fixed"}
 
 
 class Run:
-    """A finished run: `run["P.x"]` is a column of history.csv as an array, `run.report` run.yaml as text."""
+    """A finished run.  `run["P.x"]` is a column of history.csv as an array, and `run.report` is run.yaml as text."""
 
     def __init__(self, folder, seconds):
         self.folder, self.seconds = folder, seconds
@@ -28,7 +28,7 @@ class Run:
         return self.columns[column]
 
     def vectors(self, name, kind=""):
-        """(rows, 3): position; kind "v" velocity, "a" acceleration, "f" reaction."""
+        """An array (rows, 3) of the position, or with kind "v" the velocity, "a" the acceleration, "f" the reaction."""
         return np.column_stack([self[f"{name}.{kind}{axis}"] for axis in "xyz"])
 
     def counted(self, key):
@@ -39,7 +39,7 @@ class Verification:
     """Runs the program in the scratch folder and collects what fails."""
 
     def __init__(self, description, *more_options):
-        """`more_options`: names of further options that must be given; `options` has them."""
+        """@param more_options  names of further options that must be given; `options` has their values"""
         parser = argparse.ArgumentParser(description=description)
         parser.add_argument("--program", required=True)
         parser.add_argument("--scratch", required=True, type=pathlib.Path)
@@ -51,10 +51,10 @@ class Verification:
         self.scratch.mkdir(parents=True)
         self.checked, self.failed, self.started, self.runs = 0, [], time.monotonic(), 0
         self.rejected = 0
-        self.ranks = None   # without mpirun
+        self.ranks = None   # None runs without mpirun
 
     def run(self, scene, *options):
-        """Runs a scene, a dict as the file would have it; the program must succeed."""
+        """Runs a scene, a dict with the keys of a scene file.  The program must succeed."""
         run, done = self.attempt(scene, *options)
         if done.returncode:
             sys.exit(f"FAILED: exit status {done.returncode}: {' '.join(done.args)}\n{done.stderr}")
@@ -62,7 +62,7 @@ class Verification:
         return run
 
     def attempt(self, scene, *options):
-        """Runs a scene that may not succeed. @return the run, None where there is no history, and the process"""
+        """Runs a scene that may fail.  @return the run, or None if there is no history, and the finished process"""
         self.runs += 1
         folder = self.scratch / str(self.runs)
         path = folder.with_suffix(".yaml")
@@ -82,19 +82,19 @@ class Verification:
             self.failed.append(text)
 
     def check(self, name, value, limit):
-        """`value` must be at most `limit`; NaN fails."""
+        """Requires that `value` is at most `limit`.  NaN fails."""
         self._note(bool(value <= limit), f"{name}: {value:.4g} (at most {limit:.4g})")
 
     def at_least(self, name, value, limit):
         self._note(bool(value >= limit), f"{name}: {value:.4f} (at least {limit:.4f})")
 
     def close(self, name, value, expected, tolerance):
-        """|value - expected| must be at most `tolerance`."""
+        """Requires that |value - expected| is at most `tolerance`."""
         self._note(bool(abs(value - expected) <= tolerance), f"{name}: {value:.12g}, expected {expected:.12g}, "
                    f"difference {value - expected:.2g} (at most {tolerance:.2g})")
 
     def says(self, name, text, *words):
-        """Every one of the words must be in the text."""
+        """Requires that every one of the words is in the text."""
         missing = [word for word in words if word not in text]
         found = f"no {missing} in: {text.strip()}" if missing else f"says {list(words)}"
         self._note(not missing, f"{name}: {found}")
@@ -108,7 +108,8 @@ class Verification:
 
 
 def scene(cable_type, points, cables, end, step, interval, history, gravity=9.81, energy=False, **time_keys):
-    """A scene; `cables` may be one cable's keys, called `cable`, of the type `cable_type`, its keys."""
+    """A scene.  @param cable_type  keys of the only cable type   @param cables  {name: keys}, or the keys of one cable
+    with the name `cable`"""
     if "from" in cables:
         cables = {"cable": cables}
     return {
@@ -122,7 +123,7 @@ def scene(cable_type, points, cables, end, step, interval, history, gravity=9.81
 
 
 def body_scene(bodies, end, step, interval, gravity=0, **time_keys):
-    """Bodies that no cable holds, all in the history."""
+    """A scene of bodies that no cable holds.  All are in the history."""
     return {
         "environment": {"gravity": gravity},
         "bodies": bodies,
@@ -132,7 +133,7 @@ def body_scene(bodies, end, step, interval, gravity=0, **time_keys):
 
 
 def read_reference(name):
-    """A csv of reference/, its `#` lines left out, as {column: array}; columns of words stay text."""
+    """A csv file of reference/ as {column: array}, without its `#` lines.  Columns of words stay text."""
     lines = [line for line in (REFERENCE / name).read_text().splitlines() if not line.startswith("#")]
     rows = [line.split(",") for line in lines[1:]]
     columns = {}
@@ -146,7 +147,7 @@ def read_reference(name):
 
 
 def rows_at(times, wanted):
-    """Indices into `times` of the `wanted` ones."""
+    """The indices into `times` of the times `wanted`."""
     index = np.searchsorted(times, np.asarray(wanted) - 1e-9)
     if np.max(np.abs(times[index] - wanted)) > 1e-9:
         sys.exit(f"FAILED: times {wanted} are not all among {times[:3]} ... {times[-1]}")
@@ -154,12 +155,12 @@ def rows_at(times, wanted):
 
 
 def orders(errors, ratio=2):
-    """Observed orders between successive errors, each with a step `ratio` times smaller than the one before."""
+    """The orders between successive errors, where each step is `ratio` times smaller than the one before."""
     errors = np.asarray(errors)
     return np.log(errors[:-1] / errors[1:]) / np.log(ratio)
 
 
 def energy_drift(run):
-    """Largest change of the energy balance over the largest kinetic energy."""
+    """The largest change of the energy balance over the largest kinetic energy."""
     total = run["energy.total"]
     return np.abs(total - total[0]).max() / run["energy.kinetic"].max()

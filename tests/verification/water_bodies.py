@@ -1,4 +1,4 @@
-"""Bodies and points in water, one effect at a time, against closed forms."""
+"""Bodies and points in water are compared with closed forms, one effect at a time."""
 import numpy as np
 
 from attitude import Turning, about, angle_between, product, turned
@@ -60,7 +60,8 @@ def check_added_inertia(v):
 
 
 def check_linear_drag(v):
-    """Decay of the speed, towards a terminal one under a force, and of the spin about each axis."""
+    """With linear drag the speed decays, or under a force tends to a terminal one, and the spin about each axis
+    decays."""
     linear, start = np.array([30.0, 60.0, 90.0]), np.array([0.5, -0.4, 0.3])
     force, current = np.array([20.0, 30.0, -10.0]), np.array([0.2, -0.1, 0.3])
     rate = linear / 20.0
@@ -81,7 +82,7 @@ def check_linear_drag(v):
 
 
 def check_quadratic_drag(v):
-    """v0/(1 + k v0 t) along each axis, with added mass in k."""
+    """With quadratic drag the speed along each axis is v0/(1 + k v0 t), where k includes added mass."""
     quadratic, added, start = np.array([30.0, 60.0, 90.0]), np.array([5.0, 10.0, 20.0]), np.array([0.9, -1.4, 1.1])
     v0 = in_body_axes(start)
     for name, keys in SCHEMES.items():
@@ -99,7 +100,7 @@ def check_quadratic_drag(v):
 
 
 def check_spin_drag(v):
-    """About each principal axis of its own body, which a current does not turn."""
+    """Rotational drag acts about each principal axis, each tested on its own body.  A current does not turn a body."""
     inertia, added, spin = [0.4, 0.5, 0.6], [0.1, 0.2, 0.3], 2.0
     for rotation in ("quaternion", "euler"):
         for axis in range(3):
@@ -124,7 +125,7 @@ def check_spin_drag(v):
 
 
 def check_buoyancy(v):
-    """(rho V - m) g over mass and added mass."""
+    """A body rises with the acceleration (rho V - m) g over the sum of mass and added mass."""
     volume, added = 0.05, 30.0
     exact = [0, 0, (RHO * volume - 20.0) * GRAVITY / (20.0 + added)]
     bodies = kinds(volume=volume, added_mass=[added] * 3 + [0, 0, 0])
@@ -136,7 +137,8 @@ def check_buoyancy(v):
 
 
 def check_righting(v):
-    """A neutral body with its centre of buoyancy h above: 2 pi sqrt((I + Ia)/(rho V g h)), about x and about y."""
+    """A neutral body whose centre of buoyancy lies h above its centre of gravity swings about x and about y with the
+    period 2 pi sqrt((I + Ia)/(rho V g h))."""
     mass, h, small = 50.0, 0.08, 0.5
     for rotation in ("quaternion", "euler"):
         for angle, axis, moment in (("roll", 0, 2.0 + 0.7), ("pitch", 1, 3.0 + 0.4)):
@@ -153,13 +155,13 @@ def check_righting(v):
 
 
 def cap_depth(part):
-    """Depth of the middle of a sphere of radius 1 of which this part is wet."""
+    """The depth of the middle of a sphere of radius 1 of which this part is wet."""
     s = max(np.roots([-2, 3, 0, -part]), key=lambda root: -abs(root - 0.5) - 9 * abs(np.imag(root)))
     return 2 * np.real(s) - 1
 
 
 def check_draft(v):
-    """Statics: a floating sphere on a thread that hardly pulls displaces the cap whose water weighs what it does."""
+    """In statics, a floating sphere on a thread that hardly pulls displaces a cap of water as heavy as the sphere."""
     for part in (0.2, 0.5, 0.85):
         volume = 0.1
         radius = (0.75 / np.pi * volume)**(1 / 3)
@@ -177,7 +179,7 @@ def check_draft(v):
 
 
 def points_scene(keys, end, step, **time_keys):
-    """Two equal points that a massless thread joins, side by side, and so one."""
+    """Two equal points side by side that a massless thread joins: each moves as one alone."""
     return {"environment": {"gravity": GRAVITY},
             "points": {"one": {"position": [0, 0, 0], **keys}, "other": {"position": [0, 1, 0], **keys}},
             "cable_types": {"thread": {"mass_per_length": 1e-9, "axial_stiffness": 10, "diameter": 1e-6}},
@@ -186,7 +188,7 @@ def points_scene(keys, end, step, **time_keys):
 
 
 def check_points(v):
-    """Buoyancy, added mass and drag of a point: it rises as tanh."""
+    """A point with buoyancy, added mass and drag rises with a speed that grows as tanh."""
     mass, volume, added, area = 3.0, 0.005, 2.5, 0.08
     lift, drag = (RHO * volume - mass) * GRAVITY, RHO / 2 * area
     first, last = lift / (mass + added), np.sqrt(lift / drag)
@@ -208,7 +210,8 @@ def check_start(v):
     scene = points_scene(keys, start + 0.01, 0.01)
     scene["time"]["start"] = start
     run = v.run(wet(scene, surface=0, depth=50, waves=[{"height": 0.4, "period": 8, "phase": 90}]))
-    # At the origin theta = -pi/2 + pi/2 there: a crest 0.2 m above, and the points are wet; at t = 0 half of them is.
+    # At the start, theta = -pi/2 + pi/2 at the origin: a crest is 0.2 m above and the points are wet.  At t = 0 half of
+    # them would be wet.
     water = np.array([0, 0, -0.2 * (2 * np.pi / 8)**2])
     force = RHO * volume * (water + [0, 0, GRAVITY]) - [0, 0, mass * GRAVITY] + added * water
     v.check("start among waves: first acceleration [m/s2]",

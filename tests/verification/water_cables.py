@@ -1,4 +1,4 @@
-"""Cables in water and on a seabed, and things among waves, against closed forms."""
+"""Cables in water and on a seabed, and points among waves, are compared with closed forms."""
 import numpy as np
 
 from support import Verification, orders, scene
@@ -10,7 +10,7 @@ DISPLACED = RHO * np.pi / 4 * DIAMETER**2
 CABLE = {"mass_per_length": MASS, "axial_stiffness": 1e5, "diameter": DIAMETER, "normal_drag": NORMAL,
          "tangential_drag": TANGENTIAL, "added_mass": ADDED}
 BED = {"level": -5, "stiffness": 2e4}
-DEPTH = (MASS - DISPLACED) * GRAVITY / (BED["stiffness"] * DIAMETER)   # to which the cable sinks in
+DEPTH = (MASS - DISPLACED) * GRAVITY / (BED["stiffness"] * DIAMETER)   # by which the cable sinks into the bed
 
 
 def surrounded(made, bed=None, **fluid):
@@ -21,7 +21,7 @@ def surrounded(made, bed=None, **fluid):
 
 
 def laid(z, velocity=(0, 0, 0), direction=(1, 0)):
-    """The ends of a free horizontal cable, 10 m long."""
+    """The two points at the ends of a free horizontal cable of 10 m."""
     x, y = direction
     return {"a": {"position": [0, 0, z], "velocity": list(velocity)},
             "b": {"position": [10 * x, 10 * y, z], "velocity": list(velocity)}}
@@ -32,7 +32,8 @@ def lengthwise(elements=6):
 
 
 def check_falling(v):
-    """A horizontal cable falls as tanh, from its added mass's acceleration to its drag's velocity."""
+    """A horizontal cable falls with a speed that grows as tanh.  Added mass sets the first acceleration, and drag the
+    final speed."""
     first = (MASS - DISPLACED) * GRAVITY / (MASS + DISPLACED * ADDED)
     last = np.sqrt((MASS - DISPLACED) * GRAVITY / (RHO / 2 * NORMAL * DIAMETER))
     for name, keys in SCHEMES.items():
@@ -49,7 +50,7 @@ def check_falling(v):
 
 
 def check_sliding(v):
-    """Along itself a cable has neither added mass nor another drag than the tangential one."""
+    """A cable that moves along itself has no added mass, and no drag but the tangential one."""
     start, k = 2.0, RHO / 2 * TANGENTIAL * np.pi * DIAMETER / MASS
     made = scene(CABLE, laid(0, velocity=(start, 0, 0)), lengthwise(), 2, 0.01, 0.1, ["a"], gravity=0)
     run = v.run({**made, "environment": {"gravity": 0, "fluid": {"density": RHO}}})
@@ -58,7 +59,7 @@ def check_sliding(v):
 
 
 def check_lying(v):
-    """Sinks into the bed until that carries its weight; with damping it gets there and stays."""
+    """A cable sinks into the bed until the bed carries its weight.  With damping it comes to rest there."""
     made = scene(CABLE, laid(BED["level"]), lengthwise(), 4, 0.01, 0.5, ["a", "b"])
     run = v.run(surrounded(made, {**BED, "damping": 3e3}))
     for end in "ab":
@@ -73,7 +74,8 @@ def check_lying(v):
 
 
 def check_friction(v):
-    """On the bed a cable is slowed down by mu g' along itself and across, where its added mass comes along."""
+    """Friction on the bed slows a cable down by mu g', along itself and across.  Across, added mass moves with the
+    cable."""
     mu, start, bare = 0.4, 3.0, {**CABLE, "normal_drag": 0, "tangential_drag": 0}
     weight = (MASS - DISPLACED) * GRAVITY
     for axis, mass in ((0, MASS), (1, MASS + ADDED * DISPLACED)):
@@ -127,7 +129,7 @@ class Airy:
         return self.a * np.cos(self.angle(s, t))
 
     def orbit(self, s, z, t):
-        """Velocity along the wave and upwards, and its rate at a place."""
+        """The velocity at a place, along the wave and upwards, and its time derivative there."""
         size, above = self.a * self.omega / np.sinh(self.k * self.depth), self.k * (z + self.depth)
         theta, ch, sh = self.angle(s, t), size * np.cosh(above), size * np.sinh(above)
         return (np.array([ch * np.cos(theta), sh * np.sin(theta)]),
@@ -135,7 +137,8 @@ class Airy:
 
 
 def drift(wave, keys, state, end, parts):
-    """A neutral point's place and velocity (s, z, vs, vz) from `state` on, at parts + 1 times, by Runge and Kutta."""
+    """The place and velocity (s, z, vs, vz) of a neutral point from `state` on, at parts + 1 times, by the Runge-Kutta
+    method."""
     drag, mass = RHO / 2 * keys["drag_area"], keys["mass"] + keys["added_mass"]
 
     def rate(y, t):
@@ -155,14 +158,14 @@ def drift(wave, keys, state, end, parts):
 
 
 def two_points(keys, places, velocity, end, step):
-    """Points that a thread joins, too soft and too light to matter."""
+    """A scene of points that a thread joins.  The thread is too soft and too light to matter."""
     points = {name: {"position": place, "velocity": velocity, **keys} for name, place in places.items()}
     thread = {"mass_per_length": 1e-9, "axial_stiffness": 1e-6, "diameter": 1e-6}
     return scene(thread, points, {"from": "a", "to": "b", "elements": 1}, end, step, end / 60, list(places))
 
 
 def check_orbit(v):
-    """A neutral point goes with the water, in water of a depth that waves feel, whatever its direction."""
+    """A neutral point moves with the water, in waves of any direction that feel the bottom."""
     wave, along, depth, level = Airy(1.0, 6.0, 8.0, 30), np.radians(25), 8.0, -2.5
     direction = np.array([np.cos(along), np.sin(along)])
     across = np.array([-direction[1], direction[0]])
@@ -187,7 +190,7 @@ def check_orbit(v):
 
 
 def check_riding(v):
-    """A light float goes up and down with long waves."""
+    """A light float rises and falls with long waves."""
     wave, volume = Airy(0.6, 10.0, 15.0, 0), 1e-3
     keys = {"mass": RHO * volume / 2, "volume": volume, "drag_area": 0.02}
     places = {"a": [0, 0, wave.elevation(0, 0)], "b": [0, 1, wave.elevation(0, 0)]}

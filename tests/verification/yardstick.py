@@ -1,12 +1,12 @@
-"""The hand-written chain, which speeds are held against, computes what cablenet computes with as many iterations."""
+"""The hand-written chain, with which speeds are compared, gives the same result as cablenet in as many iterations."""
 import subprocess
 
 from support import HELD, Verification, scene
 
 STEEL = {"area": 1.962e-5, "density": 7800, "youngs_modulus": 53e9}
 LENGTH = 1.713
-# Elements, step [s], number of steps, axial dissipation.  Short enough steps that no step must be repeated: the
-# yardstick cannot.
+# Elements, step [s], number of steps, axial dissipation.  The steps are so short that none has to be repeated, which
+# the yardstick cannot do.
 FALLS = ((24, 1e-3, 500, 0), (24, 1e-3, 500, 0.05), (200, 2e-4, 1000, 0))
 
 

@@ -13,11 +13,12 @@
 #include <utility>
 #include <vector>
 
-/// What one core can do at best without tricks: one steel cable, pinned at its first node, straight and level, falls.
-/// Written for this case alone and independent of cablenet, so that speed and result of the general program can be held
-/// against it.  Energy-momentum scheme, as include/cablenet/elements/cable.hpp has it; Newton's stopping rule is that
-/// of src/solve/newton.cpp, so that both do the same number of iterations.  Nodes are 0 .. n, node 0 is the pin;
-/// element i lies between nodes i - 1 and i.
+/// This program shows what one core can do at best without tricks.  A steel cable, straight and level at first, is
+/// pinned at its first node and falls.  The program is written for this case alone and is independent of cablenet,
+/// whose speed and result are compared with it.  The scheme is the energy-momentum one of
+/// include/cablenet/elements/cable.hpp.
+/// Newton's stopping rule is the one of src/solve/newton.cpp, so that both programs do the same number of iterations.
+/// Nodes are 0 .. n, and node 0 is the pin.  Element i lies between nodes i - 1 and i.
 namespace {
 
 constexpr double gravity = 9.81, area = 1.962e-5, density = 7800, youngs_modulus = 53e9;
@@ -33,7 +34,7 @@ Vector3 operator-(Vector3 a, Vector3 b) { return {a.x - b.x, a.y - b.y, a.z - b.
 Vector3 operator*(double s, Vector3 a) { return {s * a.x, s * a.y, s * a.z}; }
 double dot(Vector3 a, Vector3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/// By columns.
+/// The entries stand column by column.
 using Matrix3 = std::array<Vector3, 3>;
 
 Vector3 operator*(const Matrix3& a, Vector3 b) { return b.x * a[0] + b.y * a[1] + b.z * a[2]; }
@@ -44,7 +45,8 @@ void add_to_diagonal(Matrix3& a, double s) {
   a[2].z += s;
 }
 
-/// LU without exchange of rows: the pivot blocks are a mass plus a nearly symmetric positive stiffness.
+/// LU factors without exchange of rows.  The pivot blocks do not need one: each is a mass plus a nearly symmetric
+/// positive stiffness.
 class Factored3 {
 public:
   explicit Factored3(const Matrix3& a) : u01_(a[1].x), u02_(a[2].x) {
@@ -68,7 +70,7 @@ private:
   double u01_, u02_, u12_, l10_, l20_, l21_, inverse0_, inverse1_, inverse2_;
 };
 
-/// An element's chord at both ends of the step, and its force over the sum of these chords.
+/// An element's chords at the step's start and end, and its force over the sum of these chords.
 struct Element {
   Vector3 d0, d1;
   double l0, l1;
@@ -130,7 +132,7 @@ public:
   Vector3 tip() const { return x_[n_]; }
 
 private:
-  /// M a = weight: the unstretched level cable has no other force, and all directions but z are at rest.
+  /// Solves M a = weight.  The unstretched level cable has no other force, so only z is in motion.
   void fill_first_acceleration() {
     const double sixth = mass_ / 6;
     std::vector<double> factor(n_ + 1);
@@ -153,8 +155,8 @@ private:
     }
   }
 
-  /// Twice the mid-step's forces out of balance, so that norms compare with PETSc's.
-  /// @return its 2-norm
+  /// The residual is twice the forces out of balance at mid-step, so that its norms compare with PETSc's.
+  /// @return the 2-norm of the residual
   double residual() {
     const double third = mass_ / 3;
     const Vector3 half_weight{0, 0, mass_ * gravity};
@@ -179,7 +181,7 @@ private:
     return std::sqrt(sum + dot(before, before));
   }
 
-  /// The derivative of the element's force, doubled as the residual is; unsymmetric.
+  /// The derivative of the element's force, doubled as the residual is.  It is unsymmetric.
   Matrix3 stiffness(const Element& e) const {
     const double k = axial_stiffness / L_ * (0.5 + xi_);
     const Vector3 u = 2 * (k - e.force_density) / ((e.l0 + e.l1) * e.l1) * (e.d0 + e.d1);
@@ -188,8 +190,8 @@ private:
     return matrix;
   }
 
-  /// Block elimination from the free end to the pin, right side included.  Tangents are not stored: each is needed
-  /// once.
+  /// Block elimination from the free end to the pin, which includes the right side.  Tangents are not stored, because
+  /// each is needed once.
   void eliminate() {
     const double inertia = mass_ / 6 * 4 / (dt_ * dt_);
     Matrix3 K = stiffness(elements_[n_]);
@@ -275,7 +277,7 @@ int main(int count, char** words) {
     std::fputs("usage: yardstick_chain ELEMENTS STEP STEPS [XI [LENGTH]]\n", stderr);
     return 2;
   }
-  // As cablenet does: numbers below 2e-308, far from the pin, would be slow.
+  // cablenet does the same: numbers below 2e-308, which arise far from the pin, would be slow.
   flush_denormals();
   try {
     run({words + 1, words + count});

@@ -11,8 +11,8 @@
 #include "cablenet/elimination/elimination.hpp"
 #include "cablenet/partition/cut.hpp"
 
-/// What substructuring costs on any number of ranks, without the ranks: cuts an array's graph, then factors and solves
-/// the part that takes most work, and the interface, on this core alone.
+/// This program measures what substructuring would cost on any number of ranks, without the ranks.  It cuts an array's
+/// graph.  Then it factors and solves the part that takes most work, and the interface, on one core.
 namespace {
 
 using cablenet::at;
@@ -20,7 +20,7 @@ using cablenet::elimination::BlockGraph;
 using cablenet::elimination::Elimination;
 using cablenet::partition::Graph;
 
-/// Half the nodes on a trunk, the others on branches at even distances.
+/// An array: half the nodes are on a trunk, and the others are on branches at equal distances.
 Graph array(int nodes, int branches) {
   const int trunk = branches > 0 ? nodes / 2 : nodes, length = branches > 0 ? (nodes - trunk) / branches : 0;
   std::vector<std::pair<int, int>> edges;
@@ -43,7 +43,8 @@ Graph array(int nodes, int branches) {
   return graph;
 }
 
-/// A part's vertices in the order of elimination, the kept ones behind; couplings as in a chain.
+/// The vertices of a part in the order of elimination, followed by the kept ones.  The blocks are like those of a
+/// chain.
 struct System {
   std::vector<int> order;
   int eliminated;
@@ -72,7 +73,7 @@ struct System {
     kept.assign(3 * (order.size() - at(eliminated)), 0);
   }
 
-  /// Per row its diagonal block, then those of its neighbours.
+  /// For each row, the diagonal block comes first, then its neighbours' blocks.
   void fill_matrix(const Graph& graph) {
     for (int v = 0; v < graph.vertices(); ++v)
       for (int k = -1; k < graph.first[at(v) + 1] - graph.first[at(v)]; ++k)
@@ -88,7 +89,7 @@ struct System {
     return cablenet::elimination::block_source(9 * (graph.first[at(i)] + i + behind), 3, 0);
   }
 
-  /// Seconds for factoring and solving, the least of several.
+  /// The time for factoring and solving, the least of several measurements.  [s]
   double seconds() {
     double least = 1e300;
     for (int repetition = 0; repetition < 5; ++repetition) {
@@ -102,7 +103,7 @@ struct System {
   }
 };
 
-/// The vertices of each part, and the interface's at them.
+/// The vertices of each part, and the interface vertices next to them.
 std::vector<std::vector<int>> members(const Graph& graph, const std::vector<int>& part, const std::vector<bool>& shared,
                                       int parts) {
   std::vector<std::vector<int>> members(at(parts));

@@ -12,9 +12,9 @@
 
 namespace cablenet {
 
-/// What a run keeps between steps, as a list of named numbers in a fixed order.  An object saves and loads itself with
-/// one function, void archive(Archive&), which passes each of its values to item().  A new archive saves.  Loading
-/// reads the items in the order in which they were saved.  Each rank has an archive of its own.
+/// An archive holds what a run keeps between steps, as a list of named numbers in a fixed order.  An object saves and
+/// loads itself with one function, void archive(Archive&), which passes each of its values to item().  A new archive
+/// saves; one made from entries loads them in the order in which they were saved.  Each rank has its own archive.
 /// Tests: tests/unit/archive_test.cpp
 class Archive {
 public:
@@ -25,12 +25,12 @@ public:
   };
 
   Archive() = default;
-  /// Loads from `entries`.
+  /// An archive that loads from `entries`.
   explicit Archive(std::vector<Entry> entries) : entries_(std::move(entries)), is_loading_(true) {}
 
   bool is_loading() const { return is_loading_; }
   const std::vector<Entry>& entries() const { return entries_; }
-  /// Saves `value`, or sets it to what was saved.  A vector takes the saved size; a span must have it.
+  /// Saves `value`, or sets it to what was saved.  A vector is resized to the saved size; a span must already have it.
   /// @throws InputError if the next saved item has another name, type or size
   void item(const char* name, double& value) { item(name, std::span(&value, 1)); }
   void item(const char* name, long& value) { numbers(name, std::span(&value, 1)); }

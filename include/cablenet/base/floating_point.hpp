@@ -5,8 +5,8 @@
 
 namespace cablenet {
 
-/// Numbers below 2e-308 become zero on this thread, where the processor can: far from a disturbance a solution decays
-/// to them, and they take a hundred times as long to compute with.
+/// Makes this thread round numbers below 2e-308 to zero, if the processor can.  Far from a disturbance a solution
+/// decays to such numbers, and arithmetic on them takes a hundred times as long.
 inline void flush_denormals() {
 #if defined(__SSE2__)
   constexpr unsigned flush_results = 0x8000, flush_operands = 0x0040;

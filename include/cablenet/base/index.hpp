@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-/// Numbers of different kinds are different types, so that one cannot stand where another is meant.
+/// Each index space has a type of its own, so that a number of one cannot be used in another.
 /// Tests: tests/unit/index_test.cpp
 namespace cablenet {
 
-/// A number in one index space.  A default one is none.
+/// A number in one index space.  A default-constructed index means "none": exists() is false.
 template <class Space>
 class Index {
 public:
@@ -35,12 +35,12 @@ private:
 using SceneNode = Index<struct SceneNodeSpace>;
 /// A node on this rank, as partition::LocalNetwork numbers it.
 using LocalNode = Index<struct LocalNodeSpace>;
-/// A free node or body of all ranks, in the order of the solver's unknowns.
+/// A free node or a body, counted over all ranks in the order of the solver's unknowns.
 using SolverNumber = Index<struct SolverNumberSpace>;
 /// A scalar unknown in this rank's part of the solver's vectors.
 using Unknown = Index<struct UnknownSpace>;
 
-/// A container's index, from a count or a position.
+/// Converts a count or a position to the index type of the standard containers.
 template <std::signed_integral Position>
 constexpr std::size_t at(Position position) {
   return static_cast<std::size_t>(position);
@@ -50,7 +50,7 @@ constexpr std::size_t at(Index<Space> index) {
   return static_cast<std::size_t>(index.value());
 }
 
-/// A value for each index of one space.
+/// A table with one value for each index of one space.
 template <class Key, class Value>
 class Table {
 public:
@@ -59,7 +59,7 @@ public:
 
   decltype(auto) operator[](Key key) { return values_[at(key)]; }
   decltype(auto) operator[](Key key) const { return values_[at(key)]; }
-  /// The new last index.
+  /// Appends a value.  @returns its index
   Key push_back(Value value) {
     values_.push_back(std::move(value));
     return Key(size() - 1);

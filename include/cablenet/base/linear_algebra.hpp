@@ -2,7 +2,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-/// The project's small fixed-size types.
+/// This header names the small fixed-size types that the project uses.
 namespace cablenet {
 
 using Vector3 = Eigen::Vector3d;

@@ -1,45 +1,46 @@
 #pragma once
 #include "cablenet/base/linear_algebra.hpp"
 
-/// Bodies as data; what acts on them is in rigid_body.hpp and body_in_water.hpp.
+/// The data of bodies.  rigid_body.hpp and body_in_water.hpp compute the forces on them.
 namespace cablenet::bodies {
 
 using Vector4 = Eigen::Vector4d;
 
-/// What turns: nothing (a point mass), or an attitude described in one of two ways.
+/// A body does not turn (a point mass), or its attitude is described by roll, pitch and yaw or by a quaternion.
 enum class Rotation { none, euler, quaternion };
 
+/// The properties of a body that its rotation depends on.
 struct Properties {
   Rotation rotation = Rotation::none;
   Matrix3 inertia = Matrix3::Zero();              ///< about the centre of gravity, body axes [kg m^2]
   Vector3 torque = Vector3::Zero();               ///< constant, body axes [N m]
-  Quaternion attitude = Quaternion::Identity();   ///< of what does not turn
-  Vector3 linear_drag = Vector3::Zero();          ///< against turning, body axes [N m s], >= 0
-  Vector3 quadratic_drag = Vector3::Zero();       ///< [N m s^2], >= 0
+  Quaternion attitude = Quaternion::Identity();   ///< constant attitude of a body that does not turn
+  Vector3 linear_drag = Vector3::Zero();          ///< against rotation, body axes [N m s], >= 0
+  Vector3 quadratic_drag = Vector3::Zero();       ///< against rotation, body axes [N m s^2], >= 0
 };
 
-/// The attitude's unknowns and their first two derivatives; those that a body has not are zero.
+/// The unknowns y of an attitude and their first two time derivatives.  Components that a body does not have are zero.
 struct RotationState {
   Vector4 y = Vector4::Zero();
   Vector4 dy = Vector4::Zero();
   Vector4 ddy = Vector4::Zero();
 };
 
-/// A body in water; the symbols are those of body_in_water.hpp.
+/// The properties of a body that the forces of water depend on, in body axes.  body_in_water.hpp defines the symbols.
 struct BodyInWater {
   Vector3 linear = Vector3::Zero();          ///< [N s/m]
   Vector3 quadratic = Vector3::Zero();       ///< [N s^2/m^2]
   Vector3 added = Vector3::Zero();           ///< [kg]
-  double radius = 0;                         ///< of the sphere that is wetted at the surface [m]
-  Vector3 added_inertia = Vector3::Zero();   ///< what Properties::inertia has of the water [kg m^2]
+  double radius = 0;                         ///< of the sphere that stands for the body at the surface [m]
+  Vector3 added_inertia = Vector3::Zero();   ///< the water's part of Properties::inertia [kg m^2]
 };
 
-/// A thing at a node: no axes.
+/// The properties of a point in water.  They do not depend on direction.
 struct PointInWater {
   double displaced = 0;   ///< rho V [kg]
   double drag = 0;        ///< 1/2 rho CdA [kg/m]
   double added = 0;       ///< [kg]
-  double radius = 0;      ///< as above [m]
+  double radius = 0;      ///< of the sphere that stands for the point at the surface [m]
 };
 
 }   // namespace cablenet::bodies

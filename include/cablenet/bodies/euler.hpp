@@ -1,7 +1,7 @@
 #pragma once
 #include "cablenet/bodies/rotation.hpp"
 
-/// The papers' description of an attitude.  Tests: tests/unit/rigid_body_test.cpp
+/// The papers describe an attitude by roll, pitch and yaw.  Tests: tests/unit/rigid_body_test.cpp
 namespace cablenet::bodies {
 
 /// y = (roll, pitch, yaw) [rad]: R = Rz(yaw) Ry(pitch) Rx(roll).  Singular where cos(pitch) = 0.
@@ -18,7 +18,7 @@ struct EulerRotation {
         sy * sp * cr - cy * sr, -sp, cp * sr, cp * cr;
     return R;
   }
-  /// A of eq 17.
+  /// The matrix A of eq 17, with w = A y'.
   template <class S>
   static Mat3<S> rates(const Unknowns<S, 3>& y) {
     using std::cos, std::sin;
@@ -27,7 +27,7 @@ struct EulerRotation {
     A << S(1), S(0), -sp, S(0), cr, sr * cp, S(0), -sr, cr * cp;
     return A;
   }
-  /// w' = A y'' + B, B of eq 17.
+  /// The motion, with w' = A y'' + B and the vector B of eq 17.
   template <class S>
   static Turning<S, 3> turning(const Unknowns<S, 3>& y, const Unknowns<S, 3>& dy, const Unknowns<S, 3>& ddy) {
     using std::cos, std::sin;

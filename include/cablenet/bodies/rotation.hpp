@@ -3,8 +3,9 @@
 
 #include "cablenet/base/linear_algebra.hpp"
 
-/// How a body's attitude R (body axes to world) and its angular velocity w (body axes, [rad/s]) follow from the
-/// unknowns y that describe it.  Templates on the number type, so that tangents come by automatic differentiation.
+/// The attitude R of a body (body axes to world) and its angular velocity w (body axes, [rad/s]) follow from the
+/// unknowns y of the attitude.  The functions are templates on the number type, so that automatic differentiation can
+/// give tangents.
 /// Tests: tests/unit/rigid_body_test.cpp
 namespace cablenet::bodies {
 
@@ -15,13 +16,13 @@ using Mat3 = Eigen::Matrix<S, 3, 3>;
 template <class S, int n>
 using Unknowns = Eigen::Matrix<S, n, 1>;
 
-/// What y, y', y'' say: w = rates y'.
+/// The rotation that belongs to y, y' and y'', with w = rates y'.
 template <class S, int n>
 struct Turning {
   Mat3<S> R;
   Eigen::Matrix<S, 3, n> rates;
   Vec3<S> w;
-  Vec3<S> dw;   ///< its derivative, body axes [rad/s^2]
+  Vec3<S> dw;   ///< time derivative of w, body axes [rad/s^2]
 };
 
 template <class S>
@@ -43,7 +44,7 @@ Mat3<S> times_skew(const Mat3<S>& R, const Vec3<S>& w) {
   return m;
 }
 
-/// A v, for a matrix of plain numbers.
+/// The product A v, where only v carries derivatives.
 template <class S>
 Vec3<S> times(const Matrix3& A, const Vec3<S>& v) {
   Vec3<S> result;
@@ -51,7 +52,7 @@ Vec3<S> times(const Matrix3& A, const Vec3<S>& v) {
   return result;
 }
 
-/// y = q = (w, x, y, z) of any length but zero: R is that of q/|q|.
+/// The unknowns y are a quaternion q = (w, x, y, z) of any length but zero.  R is the rotation of q/|q|.
 struct QuaternionRotation {
   static constexpr int unknowns = 4;
 
@@ -65,20 +66,20 @@ struct QuaternionRotation {
     R << 1.0 - yy - zz, xy - wz, xz + wy, xy + wz, 1.0 - xx - zz, yz - wx, xz - wy, yz + wx, 1.0 - xx - yy;
     return R;
   }
-  /// E q = 0, E(a) b = -E(b) a.
+  /// A linear map of q with E(q) q = 0 and E(a) b = -E(b) a.
   template <class S>
   static Eigen::Matrix<S, 3, 4> E(const Unknowns<S, 4>& q) {
     Eigen::Matrix<S, 3, 4> m;
     m << -q(1), q(0), q(3), -q(2), -q(2), -q(3), q(0), q(1), -q(3), q(2), -q(1), q(0);
     return m;
   }
-  /// 2/|q|^2 E(q): w = rates q'.
+  /// rates = 2/|q|^2 E(q), with w = rates q'.
   template <class S>
   static Eigen::Matrix<S, 3, 4> rates(const Unknowns<S, 4>& q) {
     const S s = 2.0 / q.squaredNorm();
     return s * E(q);
   }
-  /// R rates: the angular velocity in the world's axes is that by q'.
+  /// world_rates = R rates, so that world_rates q' is the angular velocity in world axes.
   template <class S>
   static Eigen::Matrix<S, 3, 4> world_rates(const Unknowns<S, 4>& q) {
     Eigen::Matrix<S, 3, 4> G;

@@ -6,12 +6,12 @@
 #include "cablenet/elements/cable_data.hpp"
 #include "cablenet/environment/fluid.hpp"
 
-/// What water does to a two-node cable element: Morison's drag, added mass normal to the cable, buoyancy and the
-/// waves' pressure gradient, per unstretched length, integrated with two Gauss points.
-/// With e = d/l, u and w the water's velocity and acceleration less the cable's, un = u - e (e.u), ut = e.u:
+/// The forces of water on a two-node cable element: Morison's drag, added mass normal to the cable, buoyancy and the
+/// pressure gradient of waves.  The load p per unstretched length is integrated with two Gauss points.
+/// With e = d/l, u and w the water's velocity and acceleration less the cable's, ut = e.u and un = u - e ut:
 ///   p = wet [ 1/2 rho Cdn d |un| un + 1/2 rho Cdt pi d |ut| ut e + rho A Ca (w - e (e.w)) + rho A (g ez + a_water) ]
-/// where wet is the wetted fraction of the half element around the Gauss point, under the water's height there (1
-/// without a surface).  The added mass matrix is thus consistent, as the cable's own.
+/// wet is the wetted fraction of the half element around the Gauss point, below the height of the water at that point;
+/// without a surface wet = 1.  The added mass matrix is thus a consistent one, as the cable's mass matrix is.
 /// Source: Morison et al., Petroleum Trans. AIME 189 (1950) 149; MoorDyn's documentation for cables.
 /// Tests: tests/unit/cable_in_water_test.cpp
 namespace cablenet::elements {
@@ -21,19 +21,19 @@ struct EndMotion {
   std::array<Vector3, 2> x, v, a;
 };
 
-/// Loads on the two nodes [N] and on[i]'s derivatives by node j's unknowns.
+/// The loads on the two nodes [N].  by[i][j] is the derivative of on[i] by the unknowns of node j.
 struct EndLoads {
   std::array<Vector3, 2> on;
   std::array<std::array<Matrix3, 2>, 2> by;
 };
 
-/// Water of one velocity everywhere.
+/// Water with one velocity everywhere.
 struct UniformWater {
   static constexpr bool varies = false, has_surface = false;
   Vector3 velocity;
   double gravity;   ///< [m/s^2]
 };
-/// Water that varies with place and time, up to a surface where the fluid has one.
+/// Water that varies with place and time.  `surface` tells whether the fluid has a surface.
 template <bool surface>
 struct VaryingWater {
   static constexpr bool varies = true, has_surface = surface;
@@ -42,8 +42,9 @@ struct VaryingWater {
   double gravity;   ///< [m/s^2]
 };
 
-/// In cable_in_water_loads.hpp.
-/// @param L unstretched length [m]   @returns loads; without tangent `by` is not set
+/// The integral of p over an element; cable_in_water_loads.hpp defines it.
+/// @param L  unstretched length [m]
+/// @returns the loads; `by` is set only where with_tangent is true
 template <bool with_tangent, class Water>
 EndLoads water_loads(const CableInWater&, double L, const EndMotion&, const Water&, const Shift&);
 

@@ -4,21 +4,21 @@
 
 #include "cablenet/elements/morison.hpp"
 
-/// The loads of cable_in_water.hpp in the form that the loop over elements inlines; nothing is evaluated for what the
-/// water has not.  Source and tests as there.
+/// The loads of cable_in_water.hpp in the form that the loop over elements inlines.  The type of the water leaves out
+/// at compile time what that water does not have.  Source and tests: see cable_in_water.hpp.
 namespace cablenet::elements {
 
-/// Where one of the two Gauss points lies: N1 = 1 - at, N2 = at.
+/// A Gauss point, in fractions of the element's length.  The shape functions there are N1 = 1 - at and N2 = at.
 struct GaussPoint {
   double at;
-  double middle;   ///< of the half element around it
+  double middle;   ///< of the half element around the point
 };
 constexpr double gauss_offset = 0.5 * std::numbers::inv_sqrt3;
 constexpr std::array<GaussPoint, 2> gauss_points{{{0.5 - gauss_offset, 0.25}, {0.5 + gauss_offset, 0.75}}};
 
 inline Vector3 between(const std::array<Vector3, 2>& ends, double at) { return (1 - at) * ends[0] + at * ends[1]; }
 
-/// How much of the half element around a Gauss point at x is wet, and the derivatives.
+/// The wetted fraction of the half element around a Gauss point at x, and its derivatives.
 struct HalfWetness {
   double fraction;
   double by_rise = 0;                   ///< by the chord's z [1/m]
@@ -36,7 +36,7 @@ inline HalfWetness half_wetness(const environment::Fluid& fluid, double t, doubl
   return {wet.fraction, by_length - to_middle * wet.by_depth, wet.by_depth * (surface.slope - Vector3::UnitZ())};
 }
 
-/// What is wet of a load on a wet cable.
+/// Reduces the load on a fully wet cable to the wetted fraction.
 template <bool with_tangent>
 void wet_in_part(const HalfWetness& wet, const Shift& f, LineLoad& load) {
   if constexpr (with_tangent) {
@@ -48,6 +48,7 @@ void wet_in_part(const HalfWetness& wet, const Shift& f, LineLoad& load) {
   load.p *= wet.fraction;
 }
 
+/// The load p and its derivatives at a Gauss point.
 /// @param d  the chord   @param e  d/l
 template <bool with_tangent, class Water>
 LineLoad line_load(const CableInWater& c, const Vector3& d, const Vector3& e, double l, const GaussPoint& gauss,
@@ -73,7 +74,8 @@ LineLoad line_load(const CableInWater& c, const Vector3& d, const Vector3& e, do
   }
 }
 
-/// The sum over the Gauss points of chord times the load's derivative by the chord and point times that by the point.
+/// The derivative of one node's load by the unknowns of a node.  At each Gauss point g the load's derivative by the
+/// chord counts chord[g] times, and its derivative by the point counts point[g] times.
 template <bool varies>
 Matrix3 node_tangent(const Vector3& e, const LineLoad& load0, const LineLoad& load1, const std::array<double, 2>& chord,
                      const std::array<double, 2>& point) {
@@ -96,7 +98,7 @@ template <bool with_tangent, class Water>
   const Vector3 e = 1 / l * d;
   const LineLoad load0 = line_load<with_tangent>(c, d, e, l, gauss_points[0], m, water, f);
   const LineLoad load1 = line_load<with_tangent>(c, d, e, l, gauss_points[1], m, water, f);
-  // L/2 for each Gauss point, times N at the nearer and the farther one.
+  // The weight of a Gauss point, L/2, times the shape functions of the node near it and of the node far from it.
   const double near = 0.5 * L * gauss_points[1].at, far = 0.5 * L * gauss_points[0].at;
   EndLoads loads;
   loads.on = {near * load0.p + far * load1.p, far * load0.p + near * load1.p};

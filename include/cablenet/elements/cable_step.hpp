@@ -2,11 +2,11 @@
 #include "cablenet/elements/cable.hpp"
 
 /// The forces of cable.hpp in the form that the loop over elements inlines.  Where `general` is false the material is
-/// elastic and no more: no damping, and it carries compression; nothing is evaluated for what it has not.
-/// Source and tests as in cable.hpp.
+/// purely elastic: it has no damping and carries compression.  The compiler then leaves out the code for both.
+/// Source and tests: see cable.hpp.
 namespace cablenet::elements {
 
-/// A chord and its length [m].
+/// A chord d and its length l [m].
 struct Stretch {
   Vector3 d;
   double l;
@@ -14,7 +14,7 @@ struct Stretch {
 
 inline Stretch stretch(const Vector3& d) { return {d, d.norm()}; }
 
-/// A tension [N] and its derivative by the length [N/m].
+/// A tension T [N] and its derivative by the length [N/m].
 struct TensionSlope {
   double T;
   double slope;
@@ -30,8 +30,9 @@ bool carries(const CableMaterial& m, double elongation) {
   return true;
 }
 
-/// Elongations beyond which a tension_only element carries, at both ends of the step, and the taut fraction of the step
-/// with its derivative by the end's elongation: the discrete gradient of the ramp's energy.
+/// p0 and p1 are the elongations that carry tension at the start and at the end of a step: a slack tension_only element
+/// has 0.  `taut` is the fraction of the step in which the element carries.  dp1 and dtaut are derivatives by the
+/// elongation at the end.  Together they give the discrete gradient of the strain energy.
 struct Ramp {
   double p0, p1, dp1, taut, dtaut;
 };
@@ -46,7 +47,7 @@ inline Ramp ramp(const CableMaterial& m, double elongation0, double elongation1)
   return {0, 0, 0, 0, 0};
 }
 
-/// The energy-momentum scheme's tension over a step of dt from length l0 to l1.
+/// The tension of the energy-momentum scheme in a step of length dt, in which the element's length goes from l0 to l1.
 template <bool general>
 TensionSlope step_tension(const CableMaterial& m, double L, double l0, double l1, double dt, double xi) {
   const double k = m.axial_stiffness / L;
@@ -59,7 +60,7 @@ TensionSlope step_tension(const CableMaterial& m, double L, double l0, double l1
           k * (r.dtaut * mean + (0.5 * r.taut + xi) * r.dp1) + rate * (r.dtaut * rise + r.taut)};
 }
 
-/// The tension at an instant; w = v2 - v1.
+/// The tension at an instant, with w = v2 - v1.
 template <bool general>
 double instant_tension(const CableMaterial& m, double L, const Stretch& s, const Vector3& w) {
   if (!carries<general>(m, s.l - L)) return 0;

@@ -4,31 +4,33 @@
 #include "cablenet/elements/cable_in_water.hpp"
 #include "cablenet/environment/water.hpp"
 
-/// Morison's load per length of a wet cable, inlined by cable_in_water_loads.hpp.  Source and tests as in
-/// cable_in_water.hpp.
+/// Morison's load per unstretched length of a fully wet cable; cable_in_water_loads.hpp inlines it.
+/// Source and tests: see cable_in_water.hpp.
 namespace cablenet::elements {
 
-/// A derivative a I + e q^T + c M of a line load on a cable along e, M = LineLoad::M.
+/// A derivative of the line load on a cable along e has the form a I + e q^T + c M, where M is LineLoad::M.
 struct LineSlope {
   double a;
   Vector3 q;
   double c;
 };
 
-/// A line load [N/m] and, with tangent, its derivatives by the unknowns of chord and point.
+/// A line load p [N/m] and, where a tangent is wanted, its derivatives by the unknowns of the chord and of the point.
+/// A chord's unknowns are the difference of its nodes' unknowns.  A point's unknowns are interpolated between the
+/// nodes.
 struct LineLoad {
   Vector3 p;
   Matrix3 M;         ///< un un^T/|un| [m/s]
-  LineSlope chord;   ///< as e turns
-  LineSlope point;   ///< as the point gets velocity and acceleration
-  // Of water that varies:
-  Matrix3 by_place;   ///< as the point finds other water at another place
-  Vector3 by_rise;    ///< by the chord's z
+  LineSlope chord;   ///< derivative by the chord, through its direction e
+  LineSlope point;   ///< derivative by the point, through its velocity and acceleration
+  // Only water that varies sets these two.
+  Matrix3 by_place;   ///< derivative by the point, through the water's motion at its place
+  Vector3 by_rise;    ///< derivative by the chord's z, through the wetted fraction
 };
 
-/// u, w along the cable and across it.
+/// The relative velocity u and acceleration w, divided into ut, wt along the cable and un, wn across it.
 struct CrossFlow {
-  double ut, wt, speed;   ///< speed: |un|
+  double ut, wt, speed;   ///< speed = |un|
   Vector3 un, wn;
   CrossFlow(const Vector3& e, const Vector3& u, const Vector3& w)
       : ut(e.dot(u)), wt(e.dot(w)), un(u - ut * e), wn(w - wt * e) {
@@ -41,25 +43,24 @@ struct CrossFlow {
     const double inverse = speed > 0 ? 1 / speed : 0;
     return (inverse * un).lazyProduct(un.transpose());
   }
-  /// scale times the derivative by e; e keeps its length.
+  /// scale times the load's derivative by e, where e changes direction but not length.
   LineSlope by_axis(const CableInWater& c, const Vector3& e, double scale) const {
     const double along = c.tangential_drag * std::abs(ut), across = c.normal_drag * speed;
     const double turning = scale * ((along - across) * ut - c.added * wt);
     return {turning, scale * ((2 * along - across) * un - c.added * wn) - turning * e, -scale * c.normal_drag * ut};
   }
-  /// drag times the derivative by u and added times that by w.
+  /// drag times the load's derivative by u, plus added times its derivative by w.
   LineSlope by_flow(const CableInWater& c, const Vector3& e, double drag, double added) const {
     const double across = drag * c.normal_drag * speed + added * c.added;
     return {across, (2 * drag * c.tangential_drag * std::abs(ut) - across) * e, drag * c.normal_drag};
   }
 };
 
-/// v chord + w point.
 inline LineSlope sum(double v, const LineSlope& chord, double w, const LineSlope& point) {
   return {v * chord.a + w * point.a, v * chord.q + w * point.q, v * chord.c + w * point.c};
 }
 
-/// Of what is dry.
+/// The load on a dry cable.
 inline LineLoad no_line_load() {
   const Vector3 zero = Vector3::Zero();
   const LineSlope none{0, zero, 0};
@@ -78,7 +79,7 @@ LineLoad wet_line_load(const CableInWater& c, const Vector3& e, double l, const 
   return load;
 }
 
-/// The derivative by the place, times f, of the load that the flow exerts.
+/// f times the derivative, by the place, of the load that the flow exerts.
 inline Matrix3 by_place(const CableInWater& c, const Vector3& e, const CrossFlow& flow, const Matrix3& M,
                         const environment::WaterMotion& water, double f) {
   const LineSlope by_u = flow.by_flow(c, e, f, 0);

@@ -6,18 +6,19 @@
 
 #include "cablenet/elimination/plan.hpp"
 
-/// Direct solution of a network's linear systems: L U (L D L^T where symmetric) of small dense blocks along a plan.
-/// Pivot blocks are factored, never inverted: their condition is that of axial over transverse stiffness, up to 1e10,
-/// and an inverse would lose as many digits.  3x3 pivots are taken as they come, larger ones with row exchanges.
+/// This room solves a network's linear systems directly.  It factors small dense blocks along a plan: L U, or L D L^T
+/// where the matrix is symmetric.
+/// Pivot blocks are factored, never inverted.  Their condition number is the ratio of axial to transverse stiffness, up
+/// to 1e10, and an inverse would lose as many digits.  3x3 pivots are factored without row exchanges, others with them.
 /// Tests: tests/unit/elimination_test.cpp
 namespace cablenet::elimination {
 
-/// Where a block's entries stand: row r begins at arrays[array] + offset + r * stride.
+/// Where the entries of a block are found: row r begins at arrays[array] + offset + r * stride.
 struct BlockSource {
   int offset = 0;
   unsigned stride : 27 = 0;
   unsigned array : 2 = 0;
-  unsigned absent : 1 = 1;   ///< fill: the matrix has no such block
+  unsigned absent : 1 = 1;   ///< the matrix has no such block; the block is fill
   unsigned transposed : 1 = 0;
   unsigned touched : 1 = 0;   ///< for Elimination's own use
 };
@@ -26,37 +27,41 @@ inline BlockSource block_source(int offset, int stride, unsigned array) {
   return {offset, static_cast<unsigned>(stride) & 0x7ffffff, array & 3, 0, 0, 0};
 }
 
-/// The arrays that sources refer to.
+/// The arrays that BlockSource::array numbers.
 using Arrays = std::array<const double*, 3>;
 
-/// What became of the pivots.
+/// The verdict of a factorisation on its pivots.
 struct Pivots {
-  int singular = -1;   ///< the first block whose pivot is singular to rounding; the elimination ended there
-  /// Negative pivots: with a symmetric matrix, its negative eigenvalues; of a block that is not 3x3, whose rows are
-  /// exchanged, 1 where their number is odd.
+  int singular = -1;   ///< the first block whose pivot is singular to rounding, where the factorisation ended; -1: none
+  /// The number of negative pivots.  A symmetric matrix has as many negative eigenvalues.  A pivot block that is not
+  /// 3x3 exchanges rows: it counts 1 where its number of negative pivots is odd, and 0 where it is even.
   int negative = 0;
 };
 
-/// Not symmetric where sizes are mixed.
+/// A block elimination.  It makes use of symmetry only where all blocks are 3x3.
 class Elimination {
 public:
-  /// @param where  asked for each block (row, column) of the eliminated blocks' rows and columns
+  /// @param where  returns the source of each block (row, column) in the rows and columns of the eliminated blocks
   Elimination(Plan plan, const std::function<BlockSource(int row, int column)>& where);
 
   const Plan& plan() const { return plan_; }
 
-  /// Factors the matrix whose entries stand in `arrays`, and what it takes from the kept blocks' couplings.
+  /// Factors the matrix whose entries are in `arrays`, and computes what that changes in the kept blocks' couplings.
   Pivots factor(const Arrays& arrays);
-  /// What factor() adds to a coupling of kept blocks, row-major.
+  /// The block that has to be added to a coupling of kept blocks after factor(), row-major.
   const double* update(const Plan::Kept& kept) const { return values_.data() + kept.values; }
 
-  /// Eliminates from a right-hand side of the eliminated blocks, in place; adds the kept system's part to `kept`.
+  /// Takes the forward sweep.
+  /// @param w     right-hand side of the eliminated blocks, changed in place
+  /// @param kept  right-hand side of the kept blocks, to which the sweep adds the eliminated blocks' part
   void forward(double* w, double* kept);
-  /// Turns w into the solution, the kept blocks' being known.
+  /// Takes the backward sweep, which turns w into the solution.
+  /// @param kept  the solution in the kept blocks
   void backward(double* w, const double* kept);
 
 private:
-  /// A step at which not all blocks are 3x3; where the pivot is not, its row exchanges begin at `origins`.
+  /// A step of the elimination at which not all blocks are 3x3.  The row exchanges of its pivot begin at
+  /// origins_[origins], unless the pivot is 3x3.
   struct Large {
     int block, origins;
   };
@@ -74,14 +79,14 @@ private:
 
   void add_source(BlockSource source);
   void prepare_mixed();
-  /// run(begin, end) for the 3x3 blocks between two large ones, step(large), run(begin, end), and so on; until one
-  /// returns false.
+  /// Calls run(begin, end) for the blocks before the first large one, step(large), run(begin, end) for the blocks up to
+  /// the next large one, and so on.  It stops when one of them returns false.
   template <class Run, class Step>
   void visit_forward(Run&& run, Step&& step) const;
-  /// The same from behind.
+  /// Makes the calls of visit_forward in reverse order.
   template <class Run, class Step>
   void visit_backward(Run&& run, Step&& step) const;
-  /// @param target  of the first update; gets the next after the last one
+  /// @param target  the entry of Plan::targets for the first update; moves behind the entry for the last one
   /// @returns the first block whose pivot is singular, or `end`
   template <bool symmetric>
   int factor_run(int begin, int end, const Arrays& arrays, const std::int64_t*& target, int& negative);
@@ -93,7 +98,7 @@ private:
   std::ptrdiff_t unknown(int block) const {
     return mixed ? begin_[at(block)] : 3 * std::ptrdiff_t{block};
   }
-  /// Of the eliminated blocks.
+  /// The number of unknowns of the eliminated blocks.
   std::ptrdiff_t unknowns() const;
   /// @returns the number of negative pivots, -1 if the pivot is singular
   int factor_large(const Large& step, const Arrays& arrays, const std::int64_t*& target);
@@ -101,7 +106,7 @@ private:
   int factor_step(const Large& step, Own own, const Arrays& arrays, const std::int64_t*& target);
   void forward_large(const Large& step, const Joined<double>& x);
   void backward_large(const Large& step, double* w, const Joined<const double>& x);
-  /// visit(block (k, j), block (j, k), j) for each later neighbour j
+  /// Calls visit(block (k, j), block (j, k), j) for each later neighbour j of block k.
   template <class Visit>
   void visit_later(int k, Visit&& visit);
 
@@ -109,9 +114,9 @@ private:
   std::vector<BlockSource> sources_;   ///< in the order of factoring
   std::vector<double> values_;
   std::vector<Large> large_;
-  std::vector<int> begin_;       ///< mixed sizes: each block's first unknown, and one past the last
-  std::vector<int> origins_;     ///< of the rows of pivots that are not 3x3
-  std::vector<double> column_;   ///< symmetric: the blocks below a pivot before they are divided by it
+  std::vector<int> begin_;       ///< where sizes are mixed: each block's first unknown, and one past the last
+  std::vector<int> origins_;     ///< row exchanges of the pivots that are not 3x3
+  std::vector<double> column_;   ///< where symmetric: the blocks below a pivot before the division by it
 };
 
 }   // namespace cablenet::elimination

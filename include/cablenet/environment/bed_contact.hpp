@@ -8,13 +8,14 @@
 /// Contact with a flat seabed.  Tests: tests/unit/bed_test.cpp
 namespace cablenet::environment {
 
+/// The bed's force on a node, and its derivatives by the node's position and velocity.
 struct BedForce {
   Vector3 force;                    ///< [N]
   Matrix3 by_x = Matrix3::Zero();   ///< [N/m]
   Matrix3 by_v = Matrix3::Zero();   ///< [N s/m]
 };
 
-/// P, P' and P''.
+/// The indentation P(p) of bed_force [m] and its derivatives P' [1] and P'' [1/m].
 struct Indentation {
   double P, slope, curvature;
 };
@@ -25,7 +26,8 @@ inline Indentation indentation(double p, double smoothing) {
   return {0.5 * slope * s, slope, 0.5 / smoothing};
 }
 
-/// The mean of P between two depths, from a difference of numbers that are not nearly equal.
+/// The mean of P between two different depths.  The difference of P's antiderivatives is factored: subtracting their
+/// values would cancel digits where the depths are close.
 inline double mean_indentation(double p0, double p1, double smoothing) {
   const double low = std::min(p0, p1), high = std::max(p0, p1);
   const double s0 = std::clamp(low, -smoothing, smoothing) + smoothing;
@@ -35,12 +37,12 @@ inline double mean_indentation(double p0, double p1, double smoothing) {
   return (joint + 0.5 * (below1 - below0) * (below0 + below1)) / (high - low);
 }
 
-/// N over area and its derivatives by z and v_z.
+/// The pressure N/area of bed_force [Pa], and its derivatives by z and v_z.
 struct BedPressure {
   double N, by_z, by_v;
 };
 inline BedPressure bed_pressure(const Bed& bed, double smoothing, double p, double rise, double dt) {
-  // On a path as short as this P is linear.
+  // On a path shorter than this part of smoothing + |p|, P is linear to rounding, and its mean is P at the middle.
   constexpr double shortest = 1e-6;
   if (std::abs(rise) * dt <= shortest * (smoothing + std::abs(p))) {
     const Indentation at = indentation(p, smoothing);
@@ -55,15 +57,19 @@ inline BedPressure bed_pressure(const Bed& bed, double smoothing, double p, doub
   return {bed.stiffness * mean + rate * (end.P - start.P), -by_p0 - by_p1, 0.5 * dt * (by_p0 - by_p1)};
 }
 
-/// On a node at x moving at v: with the depth p = level - z, N = area (stiffness P(p) + damping dP(p)/dt) upwards and
-/// friction -mu max(N, 0) v_t/sqrt(v_t^2 + v_s^2) along the bed, v_t the horizontal velocity.  P(p) is p below the bed
-/// and 0 above, joined by the parabola (p + smoothing)^2/(4 smoothing) over |p| < smoothing.
-/// In a step N is the mean over the node's path x + tau v, |tau| <= dt/2.  What stops a node that comes down then grows
-/// from zero with the share of the step that it is in contact; all of damping at once is more than Newton's method
-/// gets over.
-/// @param area  diameter x length of cable that the node stands for [m^2]   @param smoothing [m], > 0
-/// @param dt    of the step; 0: at an instant [s]
-/// Limits: damping makes N pull where a node leaves the bed fast.
+/// The bed's force on a node at x that moves at v.  The node lies p = level - z below the bed, and v_t is its
+/// horizontal velocity.  mu is Bed::friction and v_s is Bed::friction_velocity.  The force has two parts:
+///   upwards        N = area (stiffness P(p) + damping dP(p)/dt)
+///   along the bed  -mu max(N, 0) v_t/sqrt(v_t^2 + v_s^2)
+/// The indentation P is p where p >= smoothing and 0 where p <= -smoothing.  Between the two it is the parabola
+/// (p + smoothing)^2/(4 smoothing), so that P' is continuous.
+/// In a step of length dt, N is the mean over the node's path x + tau v, |tau| <= dt/2.  The force that stops a falling
+/// node thus grows from zero with the part of the step in which the node is in contact.  Without the mean, damping
+/// would set in at its full size, and Newton's method would not get over that jump.
+/// @param area       diameter x length of the cable that the node stands for [m^2]
+/// @param smoothing  half the range of depths over which contact sets in [m], > 0
+/// @param dt         length of the step [s]; 0 gives N at an instant
+/// Limits: where a node leaves the bed fast, damping exceeds stiffness and N pulls the node down.
 template <bool with_tangent>
 BedForce bed_force(const Bed& bed, double area, double smoothing, double dt, const Vector3& x, const Vector3& v) {
   BedForce result{Vector3::Zero()};

@@ -5,9 +5,9 @@
 /// Tests: tests/parallel/build_test.cpp
 namespace cablenet::network {
 
-/// Discretises the scene: nodes along drawn shapes, taps as nodes of their trunk, nets as grids.
-/// A tap that falls between a cable's evenly spaced nodes shares the cable's elements out anew, so that their number
-/// stays the scene's and they are even between taps.
+/// Discretises the scene.  A cable's nodes lie along its drawn shape, and a net's nodes form a grid.  A tap, at which
+/// one cable branches from another, is a node of the tapped cable.  That cable's elements are distributed between its
+/// taps: there are as many as the scene says, and those between two taps are equally long.
 /// @throws InputError where drawn shapes and lengths do not fit together.
 Network build_network(const scene::Scene& scene);
 

@@ -12,9 +12,9 @@
 #include "cablenet/network/surroundings.hpp"
 #include "cablenet/scene/motion.hpp"
 
-/// The whole discretised network in the scene's own numbering: points first, then the bodies' centres of gravity and
-/// attachments, then the nets' nodes, then each cable's inner nodes from end to end.  The same on every rank; immutable
-/// once built.
+/// The whole discretised network, in the scene's own numbering: points first, then the bodies' nodes, then the nets'
+/// nodes, then each cable's inner nodes from end to end.  A body's nodes are its centre of gravity and those at its
+/// attachments and at its centre of buoyancy.  The network is the same on every rank, and immutable once built.
 namespace cablenet::network {
 
 struct Element {
@@ -23,7 +23,7 @@ struct Element {
   double length;   ///< unstretched [m]
 };
 
-/// Point mass and constant force at a node.
+/// A point mass and a constant force at a node.
 template <class Node>
 struct NodeLoad {
   Node node;
@@ -31,30 +31,31 @@ struct NodeLoad {
   Vector3 force;   ///< [N]
 };
 
+/// A node whose motion is given: it has no unknowns.
 struct PrescribedNode {
   SceneNode node;
   scene::Motion motion;
 };
 
-/// A node whose unknowns go on with those of a body's attitude.
+/// A body.  The unknowns of its attitude follow the unknowns of its node.
 struct Body {
   std::string name;
   SceneNode node;   ///< its centre of gravity; the mass is one of Network::loads
   bodies::Properties properties;
   bodies::RotationState start;                ///< attitude and angular velocity
-  std::optional<bodies::BodyInWater> water;   ///< none: the scene has no fluid
-  int first_carried = 0;                      ///< its carried nodes: [first_carried, first_carried + carried)
+  std::optional<bodies::BodyInWater> water;   ///< none where the scene has no fluid
+  int first_carried = 0;   ///< Network::carried has its nodes: [first_carried, first_carried + carried)
   int carried = 0;
 };
 
-/// A node without unknowns of its own: a body's attachment.
+/// A node that moves with a body and has no unknowns of its own: an attachment, or the centre of buoyancy.
 struct CarriedNode {
   SceneNode node;
   int body;         ///< index into Network::bodies
   Vector3 offset;   ///< r from the centre of gravity, body axes [m]
 };
 
-/// The papers' massless stiff element: pulls a node and a carried one together by stiffness * distance.
+/// The papers' massless stiff element.  The force stiffness * distance pulls a node and a carried node together.
 /// Source: Tonin & Braun, CILAMCE 2020, eqs 19, 20.
 template <class Node>
 struct Link {
@@ -62,7 +63,7 @@ struct Link {
   double stiffness;           ///< EA/|r| [N/m]
 };
 
-/// A cable's or a net's elements: [first_element, first_element + elements).
+/// The elements of a cable or a net: [first_element, first_element + elements).
 struct Span {
   std::string name;
   int first_element;
@@ -75,8 +76,8 @@ struct Network {
   std::vector<Element> elements;        ///< cable after cable from end to end, then net after net
   std::vector<elements::CableMaterial> materials;
   std::vector<NodeLoad<SceneNode>> loads;
-  std::vector<PrescribedNode> prescribed;   ///< held or moved nodes: no unknowns
-  std::vector<Body> bodies;                 ///< the scene's
+  std::vector<PrescribedNode> prescribed;   ///< held or moved nodes
+  std::vector<Body> bodies;                 ///< in the scene's order
   std::vector<CarriedNode> carried;         ///< body after body
   std::vector<Link<SceneNode>> links;
   Surroundings surroundings;
@@ -85,11 +86,11 @@ struct Network {
   std::vector<SceneNode> point_node;   ///< per scene point
   double gravity = 0;                  ///< [m/s^2] along -z
 
-  /// Of all free nodes and bodies.
+  /// The number of unknowns of all free nodes and bodies.
   std::int64_t unknowns() const;
   /// The diagonal of the smallest box, with sides along the axes, that holds all nodes as drawn.  [m]
   double extent() const;
-  /// "cable `trunk`, element 3 of 24": for messages.
+  /// Names an element in messages: "trunk, element 3 of 24".
   std::string element_name(int element) const;
 };
 

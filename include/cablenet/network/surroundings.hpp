@@ -12,16 +12,17 @@ struct Scene;
 struct Point;
 }   // namespace cablenet::scene
 
-/// What a network lies in, and what that needs to know of it.
+/// The surroundings of a network are a fluid and a seabed.  With them stand the properties of cables and points on
+/// which their forces depend.
 namespace cablenet::network {
 
-/// A cable's material on the bed.
+/// The properties of a cable on which contact with the bed depends.
 struct CableOnBed {
   double diameter;    ///< [m]
-  double smoothing;   ///< over which contact sets in [m], > 0
+  double smoothing;   ///< half the range of depths over which contact sets in [m], > 0
 };
 
-/// A node that water acts on by itself: a point, or a body's centre of buoyancy.
+/// A node on which water acts directly: a point, or a body's centre of buoyancy.
 template <class Node>
 struct WetPoint {
   Node node;
@@ -39,7 +40,7 @@ struct Surroundings {
 
 Surroundings make_surroundings(const scene::Scene& scene);
 
-/// Of the sphere of that volume or, without one, that cross-section.  [m]
+/// The radius of the sphere with this volume or, where the volume is 0, with this cross-section.  [m]
 double wetted_radius(double volume, double area);
 /// @param density of the fluid [kg/m^3]
 bodies::PointInWater point_in_water(const scene::Point& point, double density);

@@ -8,7 +8,8 @@
 #include "cablenet/petsc/handle.hpp"
 #include "cablenet/system/assembler.hpp"
 
-/// Brings every rank's nodes and elements into the scene's order, in equal blocks, for writing.
+/// Before they are written, the values of all ranks are brought into the scene's order.  Each rank then holds one block
+/// of nodes and one of elements.  The blocks of two ranks differ by at most one in size.
 /// Tests: tests/parallel/frames_test.cpp
 namespace cablenet::output {
 
@@ -18,7 +19,7 @@ public:
   Frames(const network::Network& network, const partition::Partition& partition, const system::Assembler& assembler);
 
   const Mesh& mesh() const { return mesh_; }
-  /// The frame of the assembler's observed state; its spans live until the next call.
+  /// The frame of the assembler's observed state.  Its spans are valid until the next call.
   Frame collect(const system::LocalState& state, long step);
 
 private:
@@ -34,12 +35,12 @@ private:
   int rank_ = 0;
   int ranks_ = 1;
   Mesh mesh_;
-  StarForest nodes_;       ///< nodes that a rank speaks for -> the blocks
-  StarForest all_nodes_;   ///< all local nodes -> the blocks, to sum over ranks
-  StarForest elements_;
-  std::vector<double> tension_, strain_, node_tension_;   ///< local
+  StarForest nodes_;                                      ///< from the nodes that a rank speaks for to the blocks
+  StarForest all_nodes_;                                  ///< from all local nodes to the blocks, for sums over ranks
+  StarForest elements_;                                   ///< from a rank's own elements to the blocks
+  std::vector<double> tension_, strain_, node_tension_;   ///< of this rank's own elements and of its nodes
   std::vector<double> points_, velocity_, block_node_tension_, block_tension_, block_strain_;
-  std::vector<double> elements_at_node_;   ///< per node of the block
+  std::vector<double> elements_at_node_;   ///< per node of the block: number of elements
   std::vector<double> bodies_;             ///< on rank 0: positions, velocities, quaternions, angular velocities
 };
 

@@ -5,16 +5,17 @@
 #include <string>
 #include <string_view>
 
-/// A table of numbers that grows by a row at a time: history.csv.  Tests: tests/parallel/history_test.cpp
+/// history.csv is a table of numbers that grows row by row.  Tests: tests/parallel/history_test.cpp
 namespace cablenet::output {
 
-/// Comma-separated, exact (%.17g).  Each row is with the system when write() returns, so killing the run loses none.
-/// Not collective: for one rank.
+/// The numbers are separated by commas and exact (%.17g).  The operating system has a row when write() returns, so a
+/// run that is killed loses no row.
+/// Not collective: one rank has the history.
 class History {
 public:
   /// Replaces `path` by a file with a header row.
   /// @param columns  names without commas and line breaks
-  /// @throws OutputError if that fails.
+  /// @throws OutputError if the file cannot be written
   History(std::filesystem::path path, std::span<const std::string> columns);
   ~History();
   History(const History&) = delete;
@@ -22,7 +23,7 @@ public:
 
   /// Appends a row.
   /// @param row  one value per column
-  /// @throws OutputError if that fails; the file then ends with the row before.
+  /// @throws OutputError if the row cannot be written; the file then ends with the row before
   void write(std::span<const double> row);
 
 private:

@@ -11,20 +11,22 @@
 /// The rows of history.csv.  Tests: tests/parallel/probes_test.cpp
 namespace cablenet::output {
 
-/// What the scene's `history` and `energy` ask for, gathered from all ranks.
-/// Point: x y z [m], vx vy vz [m/s], ax ay az [m/s^2]; a held or moved one also fx fy fz, the force that holds it [N].
-/// Body: x y z vx vy vz ax ay az of its centre of gravity, then qw qx qy qz, a unit quaternion of continuous sign (body
-/// axes to world), and wx wy wz, the angular velocity in body axes [rad/s].
-/// Cable: tension_from, tension_to [N]: the size of the force that pulls at the cable's end (half an element's weight
-/// and inertia included, so it is second order in the element size), negative in compression; 0 at an end where nothing
-/// is attached. Energy: kinetic, strain, gravity (m g z), work (by moved points and constant forces), total = kinetic +
-/// strain + gravity - work [J].
+/// The probes gather from all ranks what the scene's `history` and `energy` ask for.
+/// A point has x y z [m], vx vy vz [m/s] and ax ay az [m/s^2].  A held or moved point also has fx fy fz, the force that
+/// holds it [N].
+/// A body has x y z vx vy vz ax ay az of its centre of gravity.  Then follow qw qx qy qz, a unit quaternion of
+/// continuous sign (body axes to world), and wx wy wz, the angular velocity in body axes [rad/s].
+/// A cable has tension_from and tension_to [N].  A tension is the size of the force that pulls at the cable's end, with
+/// a minus sign in compression, and 0 at an end where nothing is attached.  The force includes half an element's weight
+/// and inertia, so that its error is of second order in the element's length.
+/// The energies [J] are kinetic, strain, gravity (m g z), work (of moved points and constant forces), and
+/// total = kinetic + strain + gravity - work.
 class Probes {
 public:
   Probes(const scene::Scene& scene, const network::Network& network, const system::Assembler& assembler);
 
   const std::vector<std::string>& columns() const { return columns_; }
-  /// The row at the assembler's observed state; complete on rank 0.  Collective.
+  /// The row at the assembler's observed state.  It is complete on rank 0 alone.  Collective.
   const std::vector<double>& row(const system::LocalState& state);
 
 private:
@@ -35,9 +37,9 @@ private:
   };
   struct PointProbe {
     std::size_t column;
-    LocalNode node{};   ///< where this rank speaks for it
+    LocalNode node{};   ///< none unless this rank speaks for the point
     bool prescribed = false;
-    std::vector<ElementEnd> ends{};   ///< this rank's elements at it, if prescribed
+    std::vector<ElementEnd> ends{};   ///< this rank's elements at a prescribed point
   };
   struct CableProbe {
     std::size_t column;
@@ -46,15 +48,15 @@ private:
 
   struct BodyProbe {
     std::size_t column;
-    LocalNode node{};     ///< where this rank has the body
-    std::size_t body{};   ///< index into LocalNetwork::bodies, likewise
+    LocalNode node{};     ///< none unless this rank owns the body
+    std::size_t body{};   ///< index into LocalNetwork::bodies, if this rank owns the body
   };
 
-  /// By the scene's numbers: this rank's nodes and own elements (none: not here), and ends where nothing pulls.
+  /// Finds nodes and elements of this rank by the scene's numbers.
   struct Lookup {
-    Table<SceneNode, LocalNode> node;
-    std::vector<int> element;   ///< -1: not here
-    Table<SceneNode, bool> bare_end;
+    Table<SceneNode, LocalNode> node;                    ///< none if the node is not on this rank
+    std::vector<int> element;                            ///< -1 if the element does not belong to this rank
+    Table<SceneNode, bool> bare_end;                     ///< nothing pulls at the node but one element
     std::map<LocalNode, std::vector<ElementEnd>> ends;   ///< of prescribed nodes
   };
 

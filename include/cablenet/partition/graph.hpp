@@ -1,7 +1,9 @@
 #pragma once
 #include <vector>
 
-/// Graphs, and the order in which their vertices are eliminated from a sparse system.
+/// A sparse linear system is solved by eliminating the vertices of its graph.  An elimination joins all neighbours of
+/// its vertex with each other; the edges that are new are called fill.  This header has graphs, and an order of
+/// elimination with little fill.
 /// Tests: tests/parallel/graph_test.cpp
 namespace cablenet::partition {
 
@@ -13,27 +15,31 @@ struct Graph {
   int vertices() const { return first.empty() ? 0 : static_cast<int>(first.size()) - 1; }
 };
 
-/// The same graph with every pair joined once, no vertex joined to itself, and neighbours in ascending order.
+/// The same graph without repeated edges and without edges from a vertex to itself.  Neighbours are in ascending order.
 Graph simple_graph(const Graph& graph);
 
-/// The graph among `vertices`, numbered as listed there.
+/// The graph of `vertices` and the edges among them.  Its vertex i is vertices[i].
 Graph subgraph(const Graph& graph, const std::vector<int>& vertices);
 
-/// Per vertex: the number of its connected piece once the barred vertices are away; -1 for those.
-/// @param barred  none if empty
+/// Per vertex: the number of its connected piece in the graph without the barred vertices; -1 for a barred vertex.
+/// @param barred  per vertex; no vertex is barred if empty
 std::vector<int> connected_pieces(const Graph& graph, const std::vector<bool>& barred = {});
 
-/// Independent loops: edges - vertices + connected pieces.
+/// The number of independent loops: edges - vertices + connected pieces.
 int count_loops(const Graph& graph);
 
-/// Elimination order that keeps trees free of fill and leaves at most two later neighbours to every vertex that is
-/// eliminated before all have three: leaves are peeled off along their cables, then paths from end to end; what has
-/// loops enough to be left is ordered last, by nested dissection.
-/// @param kept  vertices that are never eliminated though they are neighbours; none if empty
-/// @returns the vertices that are not kept, in the order of elimination.
+/// An order of elimination with little fill.  It has three stages.
+/// 1. Leaves, which have one neighbour or none, are peeled off from the end of a cable inwards.  This makes no fill.
+///    A tree is eliminated completely.
+/// 2. Paths of vertices with two neighbours are eliminated from end to end, and leaves that appear are peeled off.
+/// 3. The rest, in which every vertex that is not kept has three neighbours or more, is ordered by nested dissection.
+/// A vertex of the first two stages thus has at most two neighbours left when it is eliminated.
+/// @param kept  per vertex: it is never eliminated, but counts as a neighbour; no vertex is kept if empty
+/// @returns the vertices that are not kept, in the order of elimination
 std::vector<int> elimination_order(const Graph& graph, const std::vector<bool>& kept = {});
 
-/// Per vertex: does it stay when leaves that are not kept are peeled off?  So it lies between kept vertices or loops.
+/// Per vertex: does it stay when all leaves but kept ones are peeled off?  A vertex that stays is kept, lies on a loop,
+/// or lies between kept vertices or loops.
 std::vector<bool> unpeeled(const Graph& graph, const std::vector<bool>& kept);
 
 }   // namespace cablenet::partition

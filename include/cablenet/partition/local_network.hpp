@@ -6,22 +6,22 @@
 #include "cablenet/network/network.hpp"
 #include "cablenet/partition/partition.hpp"
 
-/// This rank's share of the network.  Local nodes are numbered: owned free nodes in solver order, ghosts (free nodes of
-/// other ranks at this rank's elements), prescribed and carried nodes at this rank's elements.  A body goes with its
-/// node. Elements at an owned free node or body are all here, so that nothing but the ghosts' motion has to come from
-/// other ranks; one between two ranks is thus on both, and belongs to one of them. Tests:
-/// tests/parallel/local_network_test.cpp
+/// This rank's share of the network.  Its nodes are numbered in this order: owned free nodes in solver order, ghosts,
+/// prescribed nodes, carried nodes.  A ghost is a free node of another rank at an element or link of this rank.
+/// A body is where its node is.  All elements at an owned free node or body are here, so that only the motion of ghosts
+/// has to come from other ranks.  An element between two ranks is thus on both, and belongs to one of them.
+/// Tests: tests/parallel/local_network_test.cpp
 namespace cablenet::partition {
 
 struct LocalElement {
   std::array<LocalNode, 2> node;
-  std::array<Unknown, 2> unknown;   ///< of an owned node: its first unknown in this rank's vectors
+  std::array<Unknown, 2> unknown;   ///< the first unknown of an owned node, in this rank's vectors
   int material;
   double length;   ///< unstretched [m]
 };
 
 struct LocalBody {
-  LocalNode node;   ///< owned or ghost
+  LocalNode node;   ///< an owned node or a ghost
   int body;         ///< index into Network::bodies
   bodies::Properties properties;
   bodies::RotationState start;
@@ -35,7 +35,7 @@ struct LocalCarried {
   Vector3 offset;
 };
 
-/// Elements first .. last-1.
+/// The elements first .. last-1.
 struct Range {
   int first;
   int last;
@@ -52,21 +52,21 @@ struct LocalNetwork {
   int nodes = 0;                            ///< owned + ghosts + prescribed + carried
   SolverNumber first_number{0};             ///< of the first owned node
   int free_nodes = 0;                       ///< on all ranks together
-  int interior = 0;                         ///< owned nodes before those of the interface
+  int interior = 0;                         ///< number of owned nodes that come before those of the interface
   Blocks blocks;                            ///< of all ranks, as in Partition
   Table<LocalNode, Unknown> begin;          ///< per owned node, and one past: its first unknown in this rank's vectors
   Interface interface;                      ///< of all ranks, as in Partition
-  std::vector<SolverNumber> ghost_number;   ///< of the ghosts
-  std::vector<int> ghost_owner;             ///< rank
-  std::vector<int> ghost_index;             ///< its index in its owner's `sent`
+  std::vector<SolverNumber> ghost_number;   ///< per ghost
+  std::vector<int> ghost_owner;             ///< per ghost: the rank that owns it
+  std::vector<int> ghost_index;             ///< per ghost: its index in `sent` of its owner
   std::vector<LocalNode> sent;              ///< owned nodes that are ghosts elsewhere
   Table<LocalNode, SceneNode> scene_node;
-  Table<LocalNode, bool> primary;   ///< this rank speaks for it
-  /// First those between owned nodes, then the others that belong to this rank, then those that belong to another.
+  Table<LocalNode, bool> primary;   ///< this rank speaks for the node; no other rank does
+  /// First come the elements between owned nodes, then others that belong to this rank, then those of other ranks.
   std::vector<LocalElement> elements;
-  int inner_elements = 0;                            ///< between owned nodes
-  int own_elements = 0;                              ///< that belong to this rank
-  Range attached{0, 0};                              ///< those at carried nodes, own ones first
+  int inner_elements = 0;                            ///< elements between owned nodes
+  int own_elements = 0;                              ///< elements that belong to this rank
+  Range attached{0, 0};                              ///< the elements at carried nodes, own ones first
   std::vector<int> scene_element;                    ///< per local element
   std::vector<network::NodeLoad<LocalNode>> loads;   ///< at nodes that this rank speaks for
   std::vector<LocalPrescribed> prescribed;
@@ -75,12 +75,12 @@ struct LocalNetwork {
   bool has_euler_bodies = false;                 ///< on any rank
   std::vector<LocalCarried> carried;             ///< body after body
   std::vector<network::Link<LocalNode>> links;   ///< own ones first
-  int own_links = 0;                             ///< that belong to this rank: the owner of the free end's
+  int own_links = 0;                             ///< links that belong to this rank, the owner of their free end
   std::vector<elements::CableMaterial> materials;
   network::Surroundings surroundings;
-  std::vector<network::WetPoint<LocalNode>> wet_points;   ///< at nodes of this rank, or that its bodies carry
+  std::vector<network::WetPoint<LocalNode>> wet_points;   ///< at nodes that this rank speaks for
   double gravity = 0;                                     ///< [m/s^2] along -z
-  double extent = 0;   ///< of the whole network as drawn, on all ranks alike [m]
+  double extent = 0;                                      ///< of the whole network as drawn, on all ranks alike [m]
   Table<LocalNode, Vector3> position;                     ///< at the start [m]
   Table<LocalNode, Vector3> velocity;                     ///< at the start [m/s]
 
@@ -90,10 +90,10 @@ struct LocalNetwork {
   const LocalCarried& carried_at(LocalNode node) const { return carried[carried.size() - at(nodes - node.value())]; }
   /// The local node whose unknowns move this one.
   LocalNode anchor(LocalNode node) const { return is_carried(node) ? bodies[at(carried_at(node).body)].node : node; }
-  /// Of this rank's vectors.
+  /// The length of this rank's vectors.
   int unknowns() const { return begin.empty() ? 0 : begin[LocalNode(owned)].value(); }
   int all_unknowns() const { return blocks.begin(SolverNumber(free_nodes)); }
-  /// Of a free node.
+  /// The solver number of a free node.
   SolverNumber number(LocalNode node) const {
     return is_owned(node) ? first_number + node.value() : ghost_number[at(node.value() - owned)];
   }
