@@ -109,6 +109,7 @@ void Dynamics::archive(Archive& archive) {
   if (control_) control_->archive(archive);
   newton_.archive(archive);
   stepper_.archive(archive);
+  assembler_.archive(archive);
   is_started_ = true;
 }
 

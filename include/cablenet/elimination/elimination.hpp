@@ -65,16 +65,13 @@ private:
   struct Large {
     int block, origins;
   };
-  /// A vector over all blocks.  Its first `count` values are those of the eliminated blocks and stand apart from the
-  /// kept ones', which may be none.
+  /// A vector over all blocks.  The `count` values of the eliminated blocks stand apart from the kept ones'.
   template <class Value>
   struct Joined {
     Value* eliminated;
     Value* kept;
     std::ptrdiff_t count;
-    Value* at(std::ptrdiff_t unknown) const {
-      return unknown < count ? eliminated + unknown : kept + (unknown - count);
-    }
+    Value* at(std::ptrdiff_t i) const { return i < count ? eliminated + i : kept + (i - count); }
   };
 
   void add_source(BlockSource source);

@@ -38,8 +38,8 @@ public:
   /// Where (on any rank) the failed attempt's residual was worst or undefined.
   FailedPart failed_part() { return newton_.failed_part(outside_body_); }
 
-  /// Saves or loads t, x, v, a and all else that the further path depends on, but for what the assembler keeps.  To be
-  /// called between steps: before run(), or by an observer of steps.  Saving changes the path by rounding: this run
+  /// Saves or loads t, x, v, a, what the terms keep, and all else that the further path depends on.  To be called
+  /// between steps: before run(), or by an observer of steps.  Saving changes the path by rounding: this run
   /// goes on like one that is made anew and loads.  On the same number of ranks both are equal bit for bit.
   /// @throws InputError if what is loaded does not fit
   void archive(Archive& archive);
