@@ -77,9 +77,9 @@ private:
   long evaluations_ = 0;                          ///< of the residual in the running solve
   long expected_iterations_ = 1;                  ///< as many as the last step took
   double largest_coordinate_ = 0;                 ///< [m]
-  int outside_element_ = -1;   ///< scene number of an element that lost its length in the running attempt
-  int outside_body_ = -1;      ///< likewise of a body that turned out of its domain
-  SolverNumber singular_node_;     ///< solver number: where the tangent was singular
+  int outside_element_ = -1;     ///< scene number of an element that lost its length in the running attempt
+  int outside_body_ = -1;        ///< likewise of a body that turned out of its domain
+  SolverNumber singular_node_;   ///< solver number: where the tangent was singular
   bool is_retry_ = false;
   bool makes_tangents_ = false;
   bool combines_ = false;   ///< each residual but a solve's last brings its tangent along

@@ -6,12 +6,13 @@
 #include "cablenet/system/force_rule.hpp"
 
 /// What the solvers and the program have to know of a scheme: one row per scheme, in scheme.cpp.  All schemes step with
-/// the generalised-alpha method; they differ in how the cables' forces are taken over a step (src/system/law_choice.cpp).
+/// the generalised-alpha method; they differ in how the cables' forces are taken over a step
+/// (src/system/law_choice.cpp).
 namespace cablenet::solve {
 
 struct SchemeRow {
   scene::Scheme scheme;
-  bool has_radius;    ///< a spectral radius damps what the step does not resolve; else it is 1, which damps nothing
+  bool has_radius;   ///< a spectral radius damps what the step does not resolve; else it is 1, which damps nothing
   bool has_axial_dissipation;
   const char* advice;   ///< what may help where Newton's method fails: "Try a smaller time.step or ..."
 };

@@ -3,8 +3,8 @@
 
 #include "cablenet/base/linear_algebra.hpp"
 #include "cablenet/base/shift.hpp"
-#include "cablenet/system/stage.hpp"
 #include "cablenet/elements/static_rule.hpp"
+#include "cablenet/system/stage.hpp"
 
 namespace cablenet::system {
 
