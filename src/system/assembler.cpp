@@ -104,7 +104,8 @@ void Assembler::begin(const Situation& situation, Vec x, Vec v) {
   parts_->exchange.begin(data.x, data.v, nullptr, data.outside, data.ghost_rotations);
   parts_->prescribed.place_start(situation, data.outside);
   parts_->exchange.end();
-  Evaluation evaluation{network_, data, situation, rule_, parts_->exchange, parts_->bodies()};
+  Evaluation evaluation{
+      network_, data, situation, rule_, parts_->exchange, parts_->bodies(), parts_->bodies().carried()};
   // Bodies place the nodes that they carry, which the others look at.
   parts_->bodies().begin_step(evaluation);
   for_each_term(parts_->terms, [&]<class T>(T& term) {
@@ -116,7 +117,8 @@ bool Assembler::evaluate_terms(const Situation& situation, Vec x, Vec v, Vec a, 
                                bool must_exchange) {
   const OpenVectors vectors(network_, parts_->outside, x, v, a, r);
   const NodeData& data = vectors.data();
-  Evaluation evaluation{network_, data, situation, rule_, parts_->exchange, parts_->bodies()};
+  Evaluation evaluation{
+      network_, data, situation, rule_, parts_->exchange, parts_->bodies(), parts_->bodies().carried()};
   evaluation.has_rates = parts_->has_rates;
   evaluation.has_residual = r != nullptr;
   evaluation.is_exchanging = must_exchange;
@@ -184,7 +186,8 @@ const LocalState& Assembler::observe(double t, Vec x, Vec v, Vec a) {
   const Situation situation{.stage = {t, 0, 0}};
   evaluated_ = {};
   parts_->exchange.begin(data.x, data.v, data.a, data.outside, data.ghost_rotations);
-  Evaluation evaluation{network_, data, situation, rule_, parts_->exchange, parts_->bodies()};
+  Evaluation evaluation{
+      network_, data, situation, rule_, parts_->exchange, parts_->bodies(), parts_->bodies().carried()};
   evaluation.is_exchanging = true;
   evaluation.complete();
   copy_state(network_, t, AnyNodes{data}, state_);

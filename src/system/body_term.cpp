@@ -18,10 +18,10 @@ BodyTerm::BodyTerm(const partition::LocalNetwork& network)
     : network_(network),
       starts_(network.bodies.size()),
       forces_(network.bodies.size()),
-      tangents_(network.carried.size()),
-      blocks_(at(network.own_bodies), bodies::BodyBlock::Zero()),
+      carried_(network),
       slots_(at(network.own_bodies)) {
-  for (std::size_t k = 0; k < tangents_.size(); ++k) tangents_[k].unknowns = unknowns(network.carried[k].body);
+  for (std::size_t k = 0; k < carried_.tangents.size(); ++k)
+    carried_.tangents[k].unknowns = unknowns(network.carried[k].body);
 }
 
 void BodyTerm::couplings(BlockPattern& pattern) {
@@ -99,7 +99,7 @@ void BodyTerm::carry_body(int b, const Evaluation& evaluation, const bodies::Ste
     if (data.a != nullptr) Map3(here.a) = Const3(nodes.a(body.node)) + motion.acceleration * r;
     Map3(nodes.outside_r(node)).setZero();
     if (evaluation.has_tangent)
-      bodies::differentiate(motion, forces_[at(b)], r, evaluation.has_rates, tangents_[at(k)]);
+      bodies::differentiate(motion, forces_[at(b)], r, evaluation.has_rates, carried_.tangents[at(k)]);
   }
 }
 
@@ -109,15 +109,6 @@ void BodyTerm::clear_blocks(const TangentTarget& target) const {
     const int n = 3 + unknowns(b);
     for (int i = 0; i < n; ++i, to += slots_[at(b)].stride) std::fill_n(to, n, 0.0);
   }
-}
-
-const bodies::CarriedTangent& BodyTerm::carried_tangent(LocalNode node) const {
-  return tangents_[at(node.value() - network_.nodes + static_cast<int>(network_.carried.size()))];
-}
-
-bodies::BodyBlock* BodyTerm::block_at(LocalNode node) {
-  const int body = network_.carried_at(node).body;
-  return body < network_.own_bodies ? &blocks_[at(body)] : nullptr;
 }
 
 bodies::CarriedForces BodyTerm::collect(int b, const NodeData& data) const {
@@ -148,8 +139,8 @@ void BodyTerm::add(Evaluation& evaluation) {
     }
     if (!evaluation.has_tangent) continue;
     if (steadiness > 0)
-      bodies::add_steadiness(body.properties, forces, steadiness * largest_torque(b, data), blocks_[at(b)]);
-    if (unknowns(b) > 0) bodies::add_attitude_slopes(body.properties, forces, sum, torque, blocks_[at(b)]);
+      bodies::add_steadiness(body.properties, forces, steadiness * largest_torque(b, data), carried_.blocks[at(b)]);
+    if (unknowns(b) > 0) bodies::add_attitude_slopes(body.properties, forces, sum, torque, carried_.blocks[at(b)]);
     add_block(b, evaluation.target);
   }
 }
@@ -170,8 +161,8 @@ void BodyTerm::add_block(int b, const TangentTarget& target) {
   const int n = 3 + unknowns(b);
   double* to = target.values[0] + slots_[at(b)].offset;
   for (int i = 0; i < n; ++i, to += slots_[at(b)].stride)
-    for (int j = 0; j < n; ++j) to[j] += blocks_[at(b)](i, j);
-  blocks_[at(b)].setZero();
+    for (int j = 0; j < n; ++j) to[j] += carried_.blocks[at(b)](i, j);
+  carried_.blocks[at(b)].setZero();
 }
 
 void BodyTerm::end_step(const StepEnd& end) {

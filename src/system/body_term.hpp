@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "cablenet/bodies/carrying.hpp"
+#include "carried_nodes.hpp"
 #include "term.hpp"
 
 namespace cablenet::system {
@@ -17,10 +18,7 @@ public:
   void clear_blocks(const TangentTarget& target) const;
   /// Places the carried nodes at the stage and clears their forces.
   void carry(Evaluation& evaluation);
-  const bodies::CarriedTangent& carried_tangent(LocalNode node) const;
-  /// Where parts of the block of the body that carries the node are added; nullptr for another rank's body.
-  bodies::BodyBlock* block_at(LocalNode node);
-  bodies::BodyBlock& block(int own_body) { return blocks_[at(own_body)]; }
+  CarriedNodes& carried() { return carried_; }
   const bodies::StageForces& forces(int body) const { return forces_[at(body)]; }
   int unknowns(int body) const { return bodies::rotation_unknowns(network_.bodies[at(body)].properties.rotation); }
   /// Index into Network::bodies of one that left its domain in the last evaluation; -1: none.
@@ -48,8 +46,7 @@ private:
   const partition::LocalNetwork& network_;
   std::vector<bodies::Start> starts_;
   std::vector<bodies::StageForces> forces_;
-  std::vector<bodies::CarriedTangent> tangents_;
-  std::vector<bodies::BodyBlock> blocks_;
+  CarriedNodes carried_;
   std::vector<Slot> slots_;
   int outside_ = -1;
   double work_ = 0;   ///< of the torques since the start [J]

@@ -23,7 +23,7 @@ void BodyWaterTerm::add(Evaluation& evaluation) {
 /// Steadied bodies' loads do not follow attitudes.
 void BodyWaterTerm::add_slopes(int b, const bodies::BodyLoad& load, const Matrix3& R, Evaluation& evaluation) const {
   const Shift& shift = evaluation.target.shift;
-  bodies::BodyBlock& block = evaluation.bodies.block(b);
+  bodies::BodyBlock& block = evaluation.carried.blocks[at(b)];
   block.topLeftCorner<3, 3>() -= shift.x * load.by_x + shift.v * load.by_v + shift.a * load.by_a;
   if (evaluation.target.steadiness > 0) return;
   for (int k = 0; k < evaluation.bodies.unknowns(b); ++k)

@@ -12,7 +12,7 @@ class CarriedScatter {
 public:
   explicit CarriedScatter(const Evaluation& evaluation)
       : network_(evaluation.network),
-        bodies_(evaluation.bodies),
+        carried_(evaluation.carried),
         target_(evaluation.target),
         nodes_{evaluation.data},
         has_residual_(evaluation.has_residual) {}
@@ -61,12 +61,12 @@ public:
 private:
   /// nullptr for nodes that no body carries.
   const bodies::CarriedTangent* carried(LocalNode node) const {
-    return network_.is_carried(node) ? &bodies_.carried_tangent(node) : nullptr;
+    return network_.is_carried(node) ? &carried_.tangent(node) : nullptr;
   }
   /// Of the body that carries both.
   bodies::BodyBlock* shared_block(LocalNode one, LocalNode other) const {
     if (!network_.is_carried(one) || !network_.is_carried(other)) return nullptr;
-    return network_.carried_at(one).body == network_.carried_at(other).body ? bodies_.block_at(one) : nullptr;
+    return network_.carried_at(one).body == network_.carried_at(other).body ? carried_.block(one) : nullptr;
   }
 
   /// Rows of the position, and those of the attitude where there is one.
@@ -107,7 +107,7 @@ private:
   }
 
   const partition::LocalNetwork& network_;
-  BodyTerm& bodies_;
+  CarriedNodes& carried_;
   const TangentTarget& target_;
   const AnyNodes nodes_;
   bool has_residual_;

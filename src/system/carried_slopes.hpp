@@ -1,5 +1,5 @@
 #pragma once
-#include "body_term.hpp"
+#include "carried_nodes.hpp"
 #include "scatter.hpp"
 
 /// Slopes of kernels of two nodes as carried nodes need them: by a node's position [N/m], velocity [N s/m] and

@@ -11,6 +11,7 @@
 namespace cablenet::system {
 
 class BodyTerm;
+struct CarriedNodes;
 
 /// The motion of the nodes that this rank does not own, and the forces on them.
 struct OutsideNodes {
@@ -53,6 +54,7 @@ struct Evaluation {
   const ForceRule& rule;
   GhostExchange& exchange;
   BodyTerm& bodies;
+  CarriedNodes& carried;
   TangentTarget target{};
   bool has_rates = false;   ///< Some forces depend on velocities.
   bool has_residual = false;

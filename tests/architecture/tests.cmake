@@ -11,7 +11,7 @@ add_test(NAME architecture_format
 add_test(NAME architecture_rebuilds
   COMMAND ${CABLENET_PYTHON} ${architecture_dir}/rebuilds.py --root ${CMAKE_SOURCE_DIR}
     --rooms environment elements bodies
-    --data environment/bed.hpp environment/fluid.hpp elements/cable_data.hpp elements/static_rule.hpp bodies/body_data.hpp)
+    --data environment/bed.hpp environment/fluid.hpp elements/cable_data.hpp elements/static_rule.hpp bodies/body_data.hpp bodies/carried_data.hpp)
 add_test(NAME architecture_self_test
   COMMAND ${CABLENET_PYTHON} ${architecture_dir}/self_test.py)
 

@@ -5,6 +5,7 @@
 namespace cablenet::bodies {
 
 using Vector4 = Eigen::Vector4d;
+using Matrix34 = Eigen::Matrix<double, 3, 4>;
 
 /// A body does not turn (a point mass), or its attitude is described by roll, pitch and yaw or by a quaternion.
 enum class Rotation { none, euler, quaternion };

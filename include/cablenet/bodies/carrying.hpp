@@ -1,28 +1,14 @@
 #pragma once
+#include "cablenet/bodies/carried_data.hpp"
 #include "cablenet/bodies/rigid_body.hpp"
 
 /// What a body's attitude does to the nodes that it carries, and what forces on these do to it.
 /// Tests: tests/parallel/bodies_test.cpp
 namespace cablenet::bodies {
 
-/// Row-major, as the matrix that such parts go to.
-template <int rows, int columns>
-using RowMajor = Eigen::Matrix<double, rows, columns, Eigen::RowMajor>;
-
-/// How a carried node's motion follows its body's attitude, by its unknowns; zero columns where those are fewer than
-/// four.  The body's position comes on top as it is.
-struct CarriedTangent {
-  RowMajor<3, 4> x = RowMajor<3, 4>::Zero(), v = x, a = x;
-  Matrix34 load = x;   ///< A force F is the generalised force load^T F on the attitude.
-  int unknowns = 0;    ///< of the attitude
-};
-
 /// The tangent of a node at r, body axes [m].
 /// @param has_rates  v is of use
 void differentiate(const StageMotion&, const StageForces&, const Vector3& r, bool has_rates, CarriedTangent&);
-
-/// A body's block of the tangent while its parts are collected, and a column to spare.
-using BodyBlock = RowMajor<7, 8>;
 
 /// F and F r^T of forces F at attachments r.
 struct CarriedForces {

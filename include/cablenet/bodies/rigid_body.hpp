@@ -24,7 +24,6 @@ namespace cablenet::bodies {
 int rotation_unknowns(Rotation);
 
 using Matrix4 = Eigen::Matrix4d;
-using Matrix34 = Eigen::Matrix<double, 3, 4>;
 
 /// The unknowns that describe an attitude and an angular velocity w (body axes [rad/s]).
 RotationState rotation_state(Rotation, const Quaternion& attitude, const Vector3& w);
