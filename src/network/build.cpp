@@ -100,6 +100,7 @@ void Builder::number_nodes() {
 }
 
 void Builder::place_points() {
+  network_.points = scene_.points;
   for (std::size_t i = 0; i < scene_.points.size(); ++i) {
     const scene::Point& point = scene_.points[i];
     const SceneNode node = network_.point_node.emplace_back(static_cast<int>(i));

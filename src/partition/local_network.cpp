@@ -36,6 +36,9 @@ public:
     for (const auto& load : network_.loads)
       if (const LocalNode node = local_of_[load.node]; speaks_for(node))
         here_.loads.push_back({node, load.mass, load.force});
+    for (std::size_t i = 0; i < network_.points.size(); ++i)
+      if (const LocalNode node = local_of_[network_.point_node[i]]; speaks_for(node))
+        here_.points.push_back({node, network_.points[i]});
     for (const auto& point : network_.wet_points)
       if (const LocalNode node = local_of_[point.node]; speaks_for(node))
         here_.wet_points.push_back({node, point.water});

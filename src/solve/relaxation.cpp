@@ -23,6 +23,7 @@ constexpr double coarseness = 1e-3;
 partition::LocalNetwork in_frame(const system::Assembler& assembler, double t, const Vector3& velocity,
                                  double duration) {
   partition::LocalNetwork network = assembler.network();
+  network.held_time = t;
   for (auto& held : network.prescribed) held.motion = scene::Motion::fixed(held.motion.at(t).x);
   for (auto& material : network.materials) {
     material.mass_damping += 1 / (memory * duration);

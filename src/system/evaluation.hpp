@@ -69,6 +69,8 @@ struct Evaluation {
   /// looked at before.  Collective.
   void complete();
   double time() const { return situation.stage.time(); }
+  /// At which loads that depend on time are taken.  [s]
+  double load_time() const { return network.held_time.value_or(time()); }
   bool conserves() const { return rule.conserves(situation.stage, network.surroundings.fluid.has_value()); }
 };
 

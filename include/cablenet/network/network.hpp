@@ -10,7 +10,7 @@
 #include "cablenet/bodies/body_data.hpp"
 #include "cablenet/elements/cable_data.hpp"
 #include "cablenet/network/surroundings.hpp"
-#include "cablenet/scene/motion.hpp"
+#include "cablenet/scene/scene.hpp"
 
 /// The whole discretised network, in the scene's own numbering: points first, then the bodies' nodes, then the nets'
 /// nodes, then each cable's inner nodes from end to end.  A body's nodes are its centre of gravity and those at its
@@ -83,6 +83,7 @@ struct Network {
   Surroundings surroundings;
   std::vector<WetPoint<SceneNode>> wet_points;
   std::vector<Span> spans;             ///< the scene's cables, then its nets
+  std::vector<scene::Point> points;    ///< the scene's
   std::vector<SceneNode> point_node;   ///< per scene point
   double gravity = 0;                  ///< [m/s^2] along -z
 

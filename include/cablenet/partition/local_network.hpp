@@ -46,6 +46,12 @@ struct LocalPrescribed {
   scene::Motion motion;
 };
 
+/// A point of the scene at a node that this rank speaks for.
+struct LocalPoint {
+  LocalNode node;
+  scene::Point point;
+};
+
 struct LocalNetwork {
   int owned = 0;
   int ghosts = 0;
@@ -69,6 +75,7 @@ struct LocalNetwork {
   Range attached{0, 0};                              ///< the elements at carried nodes, own ones first
   std::vector<int> scene_element;                    ///< per local element
   std::vector<network::NodeLoad<LocalNode>> loads;   ///< at nodes that this rank speaks for
+  std::vector<LocalPoint> points;                    ///< on all ranks together, each of the scene's points once
   std::vector<LocalPrescribed> prescribed;
   std::vector<LocalBody> bodies;   ///< at owned nodes, then at ghosts
   int own_bodies = 0;
@@ -80,9 +87,11 @@ struct LocalNetwork {
   network::Surroundings surroundings;
   std::vector<network::WetPoint<LocalNode>> wet_points;   ///< at nodes that this rank speaks for
   double gravity = 0;                                     ///< [m/s^2] along -z
-  double extent = 0;                                      ///< of the whole network as drawn, on all ranks alike [m]
-  Table<LocalNode, Vector3> position;                     ///< at the start [m]
-  Table<LocalNode, Vector3> velocity;                     ///< at the start [m/s]
+  /// Loads that depend on time are taken at this time, whatever the time is.  [s]
+  std::optional<double> held_time;
+  double extent = 0;                    ///< of the whole network as drawn, on all ranks alike [m]
+  Table<LocalNode, Vector3> position;   ///< at the start [m]
+  Table<LocalNode, Vector3> velocity;   ///< at the start [m/s]
 
   bool is_owned(LocalNode node) const { return node.value() < owned; }
   bool is_free(LocalNode node) const { return node.value() < owned + ghosts; }
