@@ -31,6 +31,8 @@ Table<SceneNode, bool> bare_ends(const network::Network& network) {
     for (const SceneNode node : element.node) ++pulls[node];
   for (const auto& held : network.prescribed) pulls[held.node] += 2;
   for (const auto& load : network.loads) pulls[load.node] += 2;
+  for (std::size_t i = 0; i < network.points.size(); ++i)
+    if (network.points[i].force_law) pulls[network.point_node[i]] += 2;
   for (const auto& carried : network.carried) pulls[carried.node] += 2;
   for (const auto& link : network.links) pulls[link.node[0]] += 2;
   Table<SceneNode, bool> bare(pulls.size());

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cablenet/base/errors.hpp"
 #include "expression.hpp"
 
@@ -57,6 +59,10 @@ const Table<WrittenVector>& written_table() {
   return table;
 }
 
+/// At how many times of the scene an expression is looked at.  A root or a logarithm may leave its range on the way; so
+/// many looks find what a user is likely to write.
+constexpr int looks = 1000;
+
 void check_covered(const Value& value, const TimedRows& rows, const Time& time) {
   if (rows.times.front() <= time.start && rows.times.back() >= time.end) return;
   value.fail(fmt::format("the rows cover {}..{} s; expected {}. Add rows or {}.", rows.times.front(), rows.times.back(),
@@ -64,8 +70,6 @@ void check_covered(const Value& value, const TimedRows& rows, const Time& time) 
 }
 
 void check_finite(const Value& value, const Motion& law, const Time& time, const std::string& what) {
-  // A root or a logarithm may leave its range on the way; a thousand looks find what a user is likely to write.
-  constexpr int looks = 1000;
   for (int i = 0; i <= looks; ++i) {
     const double t = time.start + (time.end - time.start) * i / looks;
     const Kinematics k = law.at(t);
@@ -96,6 +100,19 @@ Motion make_law(const LawKeys& keys, const Vector3& origin, const Time& time, co
   const Motion law = Motion::expression(origin, keys.expression->texts);
   check_finite(*keys.law, law, time, what);
   return law;
+}
+
+std::optional<ForceLaw> make_force_law(const ForceKeys& keys, const Time& time) {
+  if (!keys.law) return std::nullopt;
+  if (keys.waypoints) {
+    check_covered(*keys.law, *keys.waypoints, time);
+    return ForceLaw::rows(keys.waypoints->times, keys.waypoints->vectors);
+  }
+  const Motion law = make_law(keys, Vector3::Zero(), time, "force or one of its derivatives");
+  double largest = 0;
+  for (int i = 0; i <= looks; ++i)
+    largest = std::max(largest, law.at(time.start + (time.end - time.start) * i / looks).x.norm());
+  return ForceLaw([law](double t) { return law.at(t).x; }, largest);
 }
 
 }   // namespace cablenet::scene

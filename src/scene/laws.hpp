@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cablenet/scene/force_law.hpp"
 #include "cablenet/scene/motion.hpp"
 #include "cablenet/scene/time.hpp"
 #include "rows.hpp"
@@ -54,5 +55,14 @@ struct MotionKeys : LawKeys {
 Kind<MotionKeys> motion();
 /// @throws InputError if the motion is not known at all times of the scene.
 Motion make_motion(const MotionKeys&, const Vector3& position, const Time&);
+
+/// A force as the file gives it: constant, or a law.
+struct ForceKeys : LawKeys {
+  Vector3 constant = Vector3::Zero();   ///< [N]
+};
+Kind<ForceKeys> force();
+/// Straight lines between the waypoints, or the expression; nothing for a constant force.
+/// @throws InputError if the force is not known at all times of the scene.
+std::optional<ForceLaw> make_force_law(const ForceKeys&, const Time&);
 
 }   // namespace cablenet::scene

@@ -91,6 +91,8 @@ std::vector<std::string> water_notes(const Section& top, const std::vector<Point
                                      const Scene&);
 /// Adds notes on what is allowed of bodies but hardly meant.  @pre the scene is expanded.
 void add_body_notes(const std::vector<BodyDraft>&, const std::vector<CableDraft>&, Scene&);
+/// Adds notes on forces that depend on time where this does little.
+void add_force_notes(const std::vector<PointDraft>&, Scene&);
 /// Adds notes on what a scene without `time` makes no use of.
 void add_static_notes(const std::vector<PointDraft>&, const std::vector<BodyDraft>&, const std::vector<CableDraft>&,
                       Scene&);

@@ -108,6 +108,7 @@ Scene read_scene(const std::string& text, const std::string& file) {
   check_ends(cables, points, scene);
   scene.notes = water_notes(top, points, bodies, scene);
   add_body_notes(bodies, cables, scene);
+  add_force_notes(points, scene);
   add_static_notes(points, bodies, cables, scene);
   scene.output = read_output(keys.output, scene.time, names);
   return scene;

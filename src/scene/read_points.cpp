@@ -10,6 +10,7 @@ namespace {
 /// A point's motion is made when its position and the scene's time are known.
 struct PointKeys : Point {
   std::optional<Vector3> given_position;
+  std::optional<ForceKeys> given_force;
   std::optional<MotionKeys> given_motion;
 };
 
@@ -21,7 +22,8 @@ const Table<PointKeys>& point_table() {
        {"velocity", vector("m/s"), standard, "The velocity of a free point at the start.", &PointKeys::velocity},
        {"mass", number("kg", at_least(0)), standard, "A mass at the point, beside that of its cables.",
         &PointKeys::mass},
-       {"force", vector("N"), standard, "A constant force on the point, in the world's axes.", &PointKeys::force},
+       {"force", force(), absent("there is none"), "A force on the point, in the world's axes.",
+        &PointKeys::given_force},
        {"motion", motion(), absent("the point is free"), "How the point is held or moved.", &PointKeys::given_motion},
        Row<PointKeys>("volume", number("m3", at_least(0)), standard, "The water that a free point displaces.",
                       &PointKeys::volume)
@@ -65,6 +67,10 @@ PointDraft read_point(const Named& named, const Time& time) {
     check_moved(section, point);
   }
   if (has_waypoints) point.position = point.motion->at(time.start).x;
+  if (point.given_force) {
+    point.force = point.given_force->constant;
+    point.force_law = make_force_law(*point.given_force, time);
+  }
   return {point, named.value};
 }
 

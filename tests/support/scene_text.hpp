@@ -81,6 +81,8 @@ private:
   void add(const scene::Point& point, const scene::Time& time) {
     add(point.name, point.position, point.velocity, point.mass, point.force);
     add(point.volume, point.drag_area, point.added_mass);
+    for (const double share : {0.0, 0.3, 0.8})
+      if (point.force_law) add(point.force_law->at(time.start + share * (time.end - time.start)));
     if (!point.motion) return;
     for (const double share : {0.0, 0.3, 0.8}) {
       const scene::Kinematics k = point.motion->at(time.start + share * (time.end - time.start));

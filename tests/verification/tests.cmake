@@ -6,6 +6,7 @@ cablenet_script_test(verification_moving_points verification/moving_points.py 12
 cablenet_script_test(verification_manoeuvres verification/manoeuvres.py 120 verification)
 cablenet_script_test(verification_biomapper_circle verification/biomapper_circle.py 120 verification)
 cablenet_script_test(verification_statements verification/statements.py 120 verification)
+cablenet_script_test(verification_point_forces verification/point_forces.py 120 verification)
 cablenet_script_test(verification_free_bodies verification/free_bodies.py 120 verification)
 cablenet_script_test(verification_pitch verification/pitch.py 120 verification)
 cablenet_script_test(verification_body_pendulum verification/body_pendulum.py 120 verification)

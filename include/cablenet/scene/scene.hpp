@@ -10,6 +10,7 @@
 #include "cablenet/environment/fluid.hpp"
 #include "cablenet/scene/body.hpp"
 #include "cablenet/scene/choice.hpp"
+#include "cablenet/scene/force_law.hpp"
 #include "cablenet/scene/motion.hpp"
 #include "cablenet/scene/time.hpp"
 
@@ -39,6 +40,7 @@ struct Point {
   Vector3 velocity = Vector3::Zero();   ///< [m/s]
   double mass = 0;                      ///< [kg]
   Vector3 force = Vector3::Zero();      ///< constant [N], world frame
+  std::optional<ForceLaw> force_law;    ///< a force that depends on time; none: `force` alone acts
   std::optional<Motion> motion;         ///< none: the point is free
   double volume = 0;                    ///< [m^3]
   double drag_area = 0;                 ///< Cd A [m^2]
