@@ -1,8 +1,11 @@
-"""The scripts of this folder share mpirun's environment and the arguments that ctest gives."""
+"""The scripts of this folder share mpirun's environment, scenes, and the arguments that ctest gives."""
 import argparse
 import os
 import pathlib
 import shutil
+
+# tests/parallel/resume_test.cpp runs these scenes, too.
+SCENES = pathlib.Path(__file__).resolve().parent / "scenes"
 
 # mpirun may run as root, with more ranks than cores, on a busy machine.  ctest sets the same variables.
 ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",

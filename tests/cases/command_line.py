@@ -4,20 +4,9 @@ import json
 import subprocess
 import sys
 
-from bench import ENVIRONMENT, arguments
+from bench import ENVIRONMENT, SCENES, arguments
 
-SCENE = """
-environment: {gravity: 9.81}
-cable_types:
-  steel: {area: 1.962e-5, density: 7800, youngs_modulus: 53e9}
-points:
-  pin: {position: [0, 0, 0], motion: fixed}
-  tip: {position: [1.713, 0, 0]}
-cables:
-  cable: {type: steel, from: pin, to: tip, elements: 24}
-time: {end: 0.05, step: 1.0e-3}
-output: {interval: 0.01, history: [pin, tip, cable], energy: true}
-"""
+SCENE = (SCENES / "command_line.yaml").read_text(encoding="utf-8")
 FILES = {"history.csv", "cables.xmf", "mesh.h5", "frames_0000.h5", "result.h5", "run.yaml"}
 failures = []
 

@@ -14,20 +14,10 @@ import xml.etree.ElementTree as xml
 import h5py
 import numpy
 
-from bench import ENVIRONMENT
+from bench import ENVIRONMENT, SCENES
 
 TYPES = {("Float", "8"): numpy.float64, ("Int", "4"): numpy.int32}
-SCENE = """
-cable_types:
-  rope: {mass_per_length: 0.1, axial_stiffness: 1.0e4}
-points:
-  pin: {position: [0, 0, 0], motion: fixed}
-  tip: {position: [2.4, 0, 0]}
-cables:
-  chain: {type: rope, from: pin, to: tip, elements: 24}
-time: {end: 1.0e4, step: 1.0e-4}
-output: {interval: 0, history: [tip]}
-"""
+SCENE = (SCENES / "crash.yaml").read_text(encoding="utf-8")
 
 SIGNS = ("cables.xmf", "mesh.h5", "cables.xmf", None)      # the file whose writing starts the delay until the kill
 

@@ -24,27 +24,13 @@ INDICES = {
 }
 READERS = {"XDMFReader": "FileNames", "Xdmf3ReaderS": "FileName"}
 WITH_XVFB = pathlib.Path(__file__).resolve().parents[2] / "jobs" / "with_xvfb.sh"
-SCENE = """
-cable_types:
-  rope: {mass_per_length: 0.1, axial_stiffness: 1.0e4}
-points:
-  pin: {position: [0, 0, 0], motion: fixed}
-  tip: {position: [2.4, 0, 0]}
-  free: {position: [1.2, 1.0, 0]}
-cables:
-  trunk: {type: rope, from: pin, to: tip, elements: 24}
-  branch: {type: rope, from: {cable: trunk, at: 1.2}, to: free, elements: 7}
-time: {end: 0.06, step: 1.0e-3}
-output: {interval: 0}
-"""
 
 
 def make_run(program, scratch, ranks):
-    from bench import ENVIRONMENT
+    from bench import ENVIRONMENT, SCENES
     shutil.rmtree(scratch, ignore_errors=True)
     scratch.mkdir(parents=True)
-    (scratch / "scene.yaml").write_text(SCENE)
-    subprocess.run(["mpirun", "-n", str(ranks), program, "run", scratch / "scene.yaml", "-o", scratch / "run"],
+    subprocess.run(["mpirun", "-n", str(ranks), program, "run", SCENES / "paraview.yaml", "-o", scratch / "run"],
                    check=True, env=ENVIRONMENT)
     return scratch / "run"
 

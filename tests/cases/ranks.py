@@ -5,7 +5,7 @@ import subprocess
 import sys
 import time
 
-from bench import ENVIRONMENT, arguments
+from bench import ENVIRONMENT, SCENES, arguments
 
 TOLERANCE = 1e-9      # of a quantity's scale: its largest value in the run
 # In `array` elements go slack and taut, and some steps are cut to dt = 0.02 s/16.  Newton's method ends within 8 times the
@@ -16,68 +16,9 @@ RESIDUALS = {"array": 4.5e-7}
 FORCES = {"ax", "ay", "az", "fx", "fy", "fz", "tension_from", "tension_to"}
 LIMIT = 120           # s for one run
 
-TYPES = """
-cable_types:
-  rope: {mass_per_length: 0.5, axial_stiffness: 2.0e4}
-  thin: {mass_per_length: 0.2, axial_stiffness: 8.0e3, tension_only: true, axial_damping: 5}
-"""
-
-# Nothing lies in a plane: each quantity then has a scale of its own.
-ARRAY = TYPES + """
-points:
-  tow: {position: [0, 0, 0], motion: {expression: {x: "3*t + 0.1*sin(9*t)", y: "0.3*cos(5*t)", z: "0.2*sin(7*t)"}}}
-  tail: {position: [-12, 1, -2], mass: 0.5, velocity: [3, 0, 0]}
-  tip: {position: [-3, 0.5, -3], mass: 1, velocity: [3, 0, 0.5]}
-cables:
-  trunk: {type: rope, from: tow, to: tail, elements: 24}
-  branch:
-    type: TYPE
-    from: {cable: trunk, at: 2.9}
-    to: tip
-    elements: 4
-    repeat: {count: 4, every: 2.7, offset: [-2.7, 0.2, -0.4]}
-time: {end: 0.2, step: 2.0e-2, spectral_radius: 0.7}
-output: {interval: 2.0e-2, history: [tip, tow, tail, trunk, branch], energy: true}
-"""
-SCENES = {
-    "chain": ((2, 3, 4, 7), TYPES + """
-points:
-  top: {position: [0, 0, 0], motion: fixed}
-  tip: {position: [5, 2, -1], mass: 1, velocity: [0, 1, 2], force: [1, -2, 0]}
-cables: {chain: {type: rope, from: top, to: tip, elements: 24, length: 5.6, shape: catenary}}
-time: {end: 0.4, step: 1.0e-2, scheme: energy_momentum}
-output: {interval: 2.0e-2, history: [tip, top, chain], energy: true}
-"""),
-    "array": ((2, 3, 4, 7), ARRAY.replace("TYPE", "thin")),
-    "taut_array": ((2, 3, 4, 7), ARRAY.replace("TYPE", "rope")),
-    "two_cables": ((2, 3, 4, 7), TYPES + """
-points:
-  a: {position: [0, 0, 0], motion: {harmonic: {amplitude: [0.1, 0.2, 0.3], period: 0.5, phase: 40}}}
-  b: {position: [3, 1, -4], mass: 0.4}
-  c: {position: [9, 9, 0], velocity: [1, 2, 3], mass: 0.1, force: [0, 3, 0]}
-  d: {position: [14, 11, 1], velocity: [0, -1, 0.5]}
-cables:
-  one: {type: rope, from: a, to: b, elements: 20}
-  other: {type: rope, from: c, to: d, elements: 16, length: 5.4}
-time: {end: 0.3, step: 1.0e-2}
-output: {interval: 0, history: [a, b, c, d, one, other], energy: true}
-"""),
-    "net": ((2, 3, 4, 7), TYPES + """
-points:
-  end: {position: [2, 1, -6], mass: 2, velocity: [0.3, 1, 0]}
-cables: {hanger: {type: rope, from: {net: panel, node: [2, 3]}, to: end, elements: 6}}
-nets:
-  panel: {type: thin, corners: [[0, 0, 0], [4, 0.5, 0.2], [4, 1, -3], [0, 0.7, -3]], meshes: [4, 3], slack: 1.02, fixed: [top]}
-time: {end: 0.25, step: 1.0e-2, spectral_radius: 0.8}
-output: {interval: 1.0e-2, history: [end, hanger], energy: true}
-"""),
-    "more_ranks_than_nodes": ((2, 7), TYPES + """
-points: {a: {position: [0, 0, 0], motion: fixed}, b: {position: [2, 1, 1], motion: {velocity: [0.1, 0.2, 0.3]}}}
-cables: {short: {type: rope, from: a, to: b, elements: 3}}
-time: {end: 0.4, step: 1.0e-2}
-output: {interval: 2.0e-2, history: [a, b, short], energy: true}
-"""),
-}
+# {scene in SCENES: numbers of ranks}.  Nothing in them lies in a plane: each quantity then has a scale of its own.
+RANKS = {"chain": (2, 3, 4, 7), "array": (2, 3, 4, 7), "taut_array": (2, 3, 4, 7), "two_cables": (2, 3, 4, 7),
+         "net": (2, 3, 4, 7), "more_ranks_than_nodes": (2, 7)}
 
 
 class Difference(Exception):
@@ -88,10 +29,10 @@ class Difference(Exception):
 # leave out `array`: its elements go slack and taut within Newton's iterations, which then end within rounding of the
 # solution but not in the same place.
 SOLVERS = {
-    "lu": (set(SCENES), ("-pc_type", "lu")),
-    "gmres": (set(SCENES), ("-ksp_type", "gmres")),
-    "baij": (set(SCENES), ("-mat_type", "baij", "-pc_type", "lu")),
-    "mumps with kept tangents": (set(SCENES) - {"array"}, ("-cable_elimination_limit", "0")),
+    "lu": (set(RANKS), ("-pc_type", "lu")),
+    "gmres": (set(RANKS), ("-ksp_type", "gmres")),
+    "baij": (set(RANKS), ("-mat_type", "baij", "-pc_type", "lu")),
+    "mumps with kept tangents": (set(RANKS) - {"array"}, ("-cable_elimination_limit", "0")),
     "lagged tangents": ({"chain"}, ("-snes_lag_jacobian", "2")),
 }
 
@@ -148,11 +89,10 @@ def variants(name, numbers):
 def main():
     given = arguments(__doc__)
     failures = 0
-    for name, (numbers, text) in SCENES.items():
+    for name, numbers in RANKS.items():
         folder = given.scratch / name
         folder.mkdir(parents=True)
-        scene = folder / "scene.yaml"
-        scene.write_text(text)
+        scene = SCENES / f"{name}.yaml"
         reference = None
         for label, ranks, options in variants(name, numbers):
             start = time.monotonic()
