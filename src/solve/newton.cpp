@@ -75,6 +75,16 @@ void Newton::configure(SNES snes) {
   linear_ = LinearSolver(ksp, assembler_.network(), tangent_.matrix());
 }
 
+/// Where the user gave a tolerance, that one holds.
+void Newton::scale_tolerance() {
+  if (petsc::has_option("-snes_atol", prefix_of(snes_))) return;
+  PetscReal of_norm = 0, of_step = 0;
+  PetscInt iterations = 0, evaluations = 0;
+  check(SNESGetTolerances(snes_, nullptr, &of_norm, &of_step, &iterations, &evaluations));
+  const double of_force = relative_force_tolerance * scales_.load;
+  check(SNESSetTolerances(snes_, of_force, of_norm, of_step, iterations, evaluations));
+}
+
 void Newton::adopt_options() {
   const char* const prefix = prefix_of(snes_);
   user_line_search_ = petsc::has_option("-snes_linesearch_type", prefix) || petsc::has_option("-snes_type", prefix);
@@ -239,6 +249,8 @@ FailedPart Newton::failed_part(int known_body) {
 
 /// Not the tangent: the stepper restarts, and the solves of its start ask for new ones.
 void Newton::archive(Archive& archive) {
+  archive.item("newton.load", scales_.load);
+  if (archive.is_loading()) scale_tolerance();
   archive.item("newton.expected_iterations", expected_iterations_);
   archive.item("newton.largest_coordinate", largest_coordinate_);
   convergence_.archive(archive);

@@ -224,7 +224,9 @@ int Assembler::nearly_singular_body(Vec x) const { return find_nearly_singular(n
 
 int Assembler::outside_body() const { return parts_->bodies().outside(); }
 
+/// The work of constant forces counts from the network's start, which statics may have moved.
 void Assembler::archive(Archive& archive) {
+  archive.item("start", std::span(network_.position.data()->data(), 3 * network_.position.size()));
   parts_->prescribed.archive(archive);
   for_each_term(parts_->terms, [&](auto& term) { term.archive(archive); });
 }

@@ -55,6 +55,7 @@ public:
 private:
   bool makes_tangents(const char* prefix) const;
   bool has_basic_line_search() const;
+  void scale_tolerance();
   void choose_line_search(bool searches);
   bool is_at_rounding(PetscInt iteration, double norm);
   SNESConvergedReason test(PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm);
