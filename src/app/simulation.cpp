@@ -178,7 +178,8 @@ private:
   void write(const solve::Instant& instant) {
     watch_.lap(solving_);
     try {
-      const system::LocalState& state = assembler_->observe(instant.t, instant.x, instant.v, instant.a);
+      const system::LocalState& state =
+          assembler_->observe(instant.t, instant.x, instant.v, instant.a, scene_.is_static);
       const std::vector<double>& row = probes_->row(state);
       if (history_) history_->write(row);
       series_->write(frames_->collect(state, instant.step));

@@ -132,7 +132,8 @@ void add_force_notes(const std::vector<PointDraft>& points, Scene& scene) {
   for (const PointDraft& draft : points) {
     if (!draft.thing.force_law) continue;
     if (draft.thing.motion)
-      scene.notes.push_back(draft.value.said("the point goes where its motion says: the force changes what holds it alone"));
+      scene.notes.push_back(
+          draft.value.said("the point goes where its motion says: the force changes what holds it alone"));
     if (scene.is_static)
       scene.notes.push_back(draft.value.said(
           fmt::format("a scene without time is solved at t = {} s: the force is what it is then", scene.time.start)));

@@ -180,7 +180,7 @@ void Assembler::end_step(const Stage& stage, Vec x, Vec v) {
   check(VecRestoreArray(x, &end.x));
 }
 
-const LocalState& Assembler::observe(double t, Vec x, Vec v, Vec a) {
+const LocalState& Assembler::observe(double t, Vec x, Vec v, Vec a, bool is_calm) {
   const OpenVectors vectors(network_, parts_->outside, x, v, a, nullptr);
   const NodeData& data = vectors.data();
   const Situation situation{.stage = {t, 0, 0}};
@@ -191,6 +191,7 @@ const LocalState& Assembler::observe(double t, Vec x, Vec v, Vec a) {
   evaluation.is_exchanging = true;
   evaluation.complete();
   copy_state(network_, t, AnyNodes{data}, state_);
+  state_.is_calm = is_calm;
   state_.bodies = parts_->bodies().states(data);
   return state_;
 }

@@ -54,7 +54,7 @@ void CableWaterTerm::add(Evaluation& evaluation) {
 Vector3 CableWaterTerm::end_force(const LocalState& state, int element, std::size_t end) const {
   PairResponse response{};
   if (!water_.exists()) return Vector3::Zero();
-  visit_water(water_.fluid(false), state.t, network_.gravity, [&]<class Water>(const Water& water) {
+  visit_water(water_.fluid(state.is_calm), state.t, network_.gravity, [&]<class Water>(const Water& water) {
     WaterKernel<Water>{network_, water}.template evaluate<true, false>(0, network_.elements[at(element)],
                                                                        StateNodes{state}, {}, response);
   });

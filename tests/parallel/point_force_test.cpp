@@ -12,19 +12,20 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 
 /// A line with a free end, a point between two cables and a moved one, each of which may get a force.
 network::Network line(const std::string& tip, const std::string& middle, const std::string& moved) {
-  return network_of("points:\n"
-                    "  moved: {position: [0, 0, 0], motion: {velocity: [0.3, 0, 1]}" +
-                    moved +
-                    "}\n"
-                    "  middle: {position: [3, 0, -1], mass: 2" +
-                    middle +
-                    "}\n"
-                    "  tip: {position: [5, 1, -2]" +
-                    tip +
-                    "}\n"
-                    "cables:\n"
-                    "  upper: {type: rope, from: moved, to: middle, elements: 4}\n"
-                    "  lower: {type: damped, from: middle, to: tip, elements: 3}\n");
+  return network_of(
+      "points:\n"
+      "  moved: {position: [0, 0, 0], motion: {velocity: [0.3, 0, 1]}" +
+      moved +
+      "}\n"
+      "  middle: {position: [3, 0, -1], mass: 2" +
+      middle +
+      "}\n"
+      "  tip: {position: [5, 1, -2]" +
+      tip +
+      "}\n"
+      "cables:\n"
+      "  upper: {type: rope, from: moved, to: middle, elements: 4}\n"
+      "  lower: {type: damped, from: middle, to: tip, elements: 3}\n");
 }
 
 const std::string at_tip = ", force: {expression: {x: 2*t, z: \"-3\"}}";

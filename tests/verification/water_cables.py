@@ -200,10 +200,27 @@ def check_riding(v):
     v.check("float: off the surface [m]", np.abs(run["a.z"] - surface)[5:].max(), 0.01)
 
 
+def check_equilibrium(v):
+    """Statics leaves waves out, in the shape and in the forces that it reports."""
+    fluid = {"density": RHO, "surface": 0, "depth": 60}
+    line = {"mass_per_length": 2, "axial_stiffness": 1e4, "diameter": 0.02, "normal_drag": 1.2}
+    ends = {name: {"position": [x, 0, -1], "motion": "fixed"} for name, x in (("a", 0), ("b", 4))}
+    runs = []
+    for waves in ({}, {"waves": [{"height": 1, "period": 5}]}):
+        runs.append(v.run({
+            "environment": {"fluid": {**fluid, **waves}}, "cable_types": {"line": line}, "points": ends,
+            "cables": {"c": {"type": "line", "from": "a", "to": "b", "elements": 2, "length": 4.2, "shape": "catenary"}},
+            "initial": "static", "output": {"history": ["a", "b", "c"]}}))
+    calm, wavy = runs
+    v.check("equilibrium: any column in waves off that in calm water",
+            max(np.abs(wavy[name] - calm[name]).max() for name in calm.columns), 0)
+    v.check("equilibrium: pull of the two ends along the line together [N]", abs(wavy["a.fx"] + wavy["b.fx"]).max(), 1e-9)
+
+
 def main():
     verification = Verification(__doc__)
     for check in (check_falling, check_sliding, check_lying, check_friction, check_profile, check_orbit,
-                  check_riding):
+                  check_riding, check_equilibrium):
         check(verification)
     verification.check("rejected steps in all runs", verification.rejected, 0)
     verification.finish()

@@ -60,7 +60,8 @@ public:
   void force(double t, Vec x, Vec v, Vec force);
 
   /// Brings an instant's positions, velocities and accelerations of all local nodes together for energies and probes.
-  const LocalState& observe(double t, Vec x, Vec v, Vec a);
+  /// @param is_calm  the forces on what is observed are those in water without waves, as in statics
+  const LocalState& observe(double t, Vec x, Vec v, Vec a, bool is_calm = false);
   /// This rank's part: kinetic, strain, gravity energy and external work since the start [J].  @pre observe
   Energies energies() const;
   /// What must pull at an element's end for the observed motion, water and bed included.  [N]  Not collective.

@@ -25,6 +25,7 @@ struct LocalState {
   using Node = Eigen::Map<const Vector3>;
 
   double t = 0;
+  bool is_calm = false;            ///< The water has no waves, as in statics.
   std::vector<BodyState> bodies;   ///< as LocalNetwork::bodies
   std::vector<double> x;           ///< [m]
   std::vector<double> v;           ///< [m/s]
