@@ -93,7 +93,7 @@ private:
 
   void set_up_statics() {
     const double window = time_.end > time_.start ? steady_part * (time_.end - time_.start) : steady_window;
-    frame_ = system::StaticForces::frame_velocity(*assembler_, time_.start, window);
+    frame_ = solve::StaticForces::frame_velocity(*assembler_, time_.start, window);
     statics_.emplace(*assembler_, time_.start, frame_);
     introduce(fmt::format("statics, {}", statics_->linear_solver()));
   }

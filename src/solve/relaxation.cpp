@@ -4,7 +4,7 @@
 
 #include "cablenet/solve/dynamics.hpp"
 #include "cablenet/solve/scheme.hpp"
-#include "cablenet/system/static_forces.hpp"
+#include "cablenet/solve/static_forces.hpp"
 
 namespace cablenet::solve {
 namespace {
@@ -49,7 +49,7 @@ bool relax(const system::Assembler& assembler, double t, const Vector3& velocity
   set_spectral_radius(time, 0);
   time.tolerance = relaxation_tolerance(assembler.network());
   system::Assembler settling(in_frame(assembler, t, velocity, duration), force_rule_of(time), assembler.communicator());
-  system::StaticForces(settling, 0, Vector3::Zero()).start_from(x);
+  StaticForces(settling, 0, Vector3::Zero()).start_from(x);
   Dynamics dynamics(settling, time, {duration, relaxation_prefix, most_steps});
   const Verdict verdict = dynamics.run(
       {[&](const Instant& instant) { check(VecCopy(instant.x, x)); }, [](double, double, const Counts&) {}});

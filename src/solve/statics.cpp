@@ -110,7 +110,7 @@ bool Statics::solve() {
 
 /// Where compression is carried there may be more equilibria than one, and that without any is the lowest.
 bool Statics::is_taut() {
-  const system::TensionRange tensions = forces_.tensions(x_);
+  const TensionRange tensions = forces_.tensions(x_);
   return tensions.least >= -enough * tensions.largest;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 #include <optional>
 
-#include "cablenet/elements/cable_in_water.hpp"
 #include "cablenet/environment/fluid.hpp"
 #include "cablenet/network/surroundings.hpp"
 
@@ -21,14 +20,5 @@ public:
 private:
   std::optional<environment::Fluid> fluid_, calm_;
 };
-
-/// Calls visit(water) with the type of water that the fluid needs, and no richer one.
-template <class Visit>
-void visit_water(const environment::Fluid& fluid, double t, double gravity, Visit&& visit) {
-  if (fluid.surface) return visit(elements::VaryingWater<true>{fluid, t, gravity});
-  if (fluid.varies()) return visit(elements::VaryingWater<false>{fluid, t, gravity});
-  const Vector3 velocity = fluid.current.empty() ? Vector3(0, 0, 0) : fluid.current.front().velocity;
-  visit(elements::UniformWater{velocity, gravity});
-}
 
 }   // namespace cablenet::system

@@ -110,7 +110,7 @@ private:
   /// Makes the equilibrium the start, as the program does.
   void find_equilibrium() {
     const double t = scene_.time.start, window = 0.1 * (scene_.time.end - t);
-    solve::Statics statics(system_.assembler, t, system::StaticForces::frame_velocity(system_.assembler, t, window));
+    solve::Statics statics(system_.assembler, t, solve::StaticForces::frame_velocity(system_.assembler, t, window));
     ASSERT_TRUE(statics.solve()) << statics.failure();
     statics.make_start();
   }

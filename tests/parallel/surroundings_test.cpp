@@ -4,7 +4,7 @@
 
 #include "../support/stages.hpp"
 #include "cablenet/petsc/queries.hpp"
-#include "cablenet/system/static_forces.hpp"
+#include "cablenet/solve/static_forces.hpp"
 
 /// These tests compare the tangent of water and bed in the assembled residual with differences, for everything that
 /// water and bed act on.
@@ -232,9 +232,9 @@ TEST_P(Instant, TheStaticTangentIsTheForcesDerivative) {
   System system(network_of(setting_, still), rule_, PETSC_COMM_WORLD);
   Stages s(system, 0.5);
   s.stage = {0.4, 0, 0};
-  const Vector3 frame = system::StaticForces::frame_velocity(system.assembler, s.stage.t, 1);
+  const Vector3 frame = solve::StaticForces::frame_velocity(system.assembler, s.stage.t, 1);
   EXPECT_EQ(frame.x(), std::get<1>(GetParam()) == 0 ? 0 : 0.3);
-  system::StaticForces forces(system.assembler, s.stage.t, frame);
+  solve::StaticForces forces(system.assembler, s.stage.t, frame);
   s.is_calm = true;
   petsc::check(VecSet(s.a, 0));
   fill_velocity(system, frame, s.v);

@@ -48,4 +48,13 @@ struct VaryingWater {
 template <bool with_tangent, class Water>
 EndLoads water_loads(const CableInWater&, double L, const EndMotion&, const Water&, const Shift&);
 
+/// Calls visit(water) with the type of water that the fluid needs, and no richer one.
+template <class Visit>
+void visit_water(const environment::Fluid& fluid, double t, double gravity, Visit&& visit) {
+  if (fluid.surface) return visit(VaryingWater<true>{fluid, t, gravity});
+  if (fluid.varies()) return visit(VaryingWater<false>{fluid, t, gravity});
+  const Vector3 velocity = fluid.current.empty() ? Vector3(0, 0, 0) : fluid.current.front().velocity;
+  visit(UniformWater{velocity, gravity});
+}
+
 }   // namespace cablenet::elements

@@ -5,7 +5,7 @@
 
 #include "cablenet/solve/linear_solver.hpp"
 #include "cablenet/solve/observers.hpp"
-#include "cablenet/system/static_forces.hpp"
+#include "cablenet/solve/static_forces.hpp"
 
 /// Equilibrium from any drawn shape.
 ///
@@ -84,7 +84,7 @@ private:
   system::Assembler& assembler_;
   double t_;
   Vector3 velocity_;
-  system::StaticForces forces_;
+  StaticForces forces_;
   bool is_in_flow_;
   system::ForceScales scales_;
   system::TangentMatrix tangent_;

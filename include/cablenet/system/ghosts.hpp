@@ -1,10 +1,8 @@
 #pragma once
-#include <petscsf.h>
-
 #include <vector>
 
 #include "cablenet/partition/local_network.hpp"
-#include "cablenet/petsc/handle.hpp"
+#include "cablenet/petsc/broadcast.hpp"
 
 /// Brings the motion of other ranks' nodes and bodies here.  Tests: tests/parallel/assembler_test.cpp
 namespace cablenet::system {
@@ -28,23 +26,10 @@ public:
   void end();
 
 private:
-  /// One message per neighbour, of as many doubles an item as `Item` has.
-  template <class Item>
-  struct Broadcast {
-    void set_up(MPI_Comm communicator, std::size_t roots, std::vector<PetscInt> leaves,
-                std::vector<PetscSFNode> places);
-    void begin(Item* to);
-    void end();
-
-    std::vector<Item> sent;
-    Item* received = nullptr;
-    petsc::Handle<PetscSF, PetscSFDestroy> forest;
-    petsc::Handle<MPI_Datatype, MPI_Type_free> unit;
-  };
   /// A body among the nodes that are sent.
   struct SentBody {
     std::size_t item;
-    Unknown place;   ///< of its attitude's unknowns in the vectors
+    Unknown attitude;   ///< the first one in the vectors
     int unknowns;
   };
 
@@ -52,10 +37,10 @@ private:
 
   bool alone_ = true;
   bool with_bodies_ = false;
-  std::vector<Unknown> places_;   ///< of the sent nodes in the vectors
+  std::vector<Unknown> sent_nodes_;   ///< the first unknown of each in the vectors
   std::vector<SentBody> sent_bodies_;
-  Broadcast<NodeMotion> nodes_;
-  Broadcast<bodies::RotationState> rotations_;
+  petsc::Broadcast<NodeMotion> nodes_;
+  petsc::Broadcast<bodies::RotationState> rotations_;
 };
 
 }   // namespace cablenet::system

@@ -1,4 +1,4 @@
-#include "cablenet/system/static_forces.hpp"
+#include "cablenet/solve/static_forces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "cablenet/elements/cable.hpp"
 
-namespace cablenet::system {
+namespace cablenet::solve {
 namespace {
 
 using petsc::check;
@@ -56,7 +56,8 @@ double softest_cable(const partition::LocalNetwork& network) {
 /// Looks at all prescribed nodes' velocities in a window.  Collective.
 /// @returns whether they differ by at most the tolerance times their middle; components that do not are zero in
 /// `common`
-bool find_common_velocity(const Assembler& assembler, double t, double window, double tolerance, Vector3& common) {
+bool find_common_velocity(const system::Assembler& assembler, double t, double window, double tolerance,
+                          Vector3& common) {
   double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300};
   for (const auto& [node, motion] : assembler.network().prescribed)
     for (int i = 0; i <= samples; ++i) {
@@ -79,7 +80,7 @@ bool find_common_velocity(const Assembler& assembler, double t, double window, d
 
 }   // namespace
 
-StaticForces::StaticForces(Assembler& assembler, double t, const Vector3& velocity)
+StaticForces::StaticForces(system::Assembler& assembler, double t, const Vector3& velocity)
     : assembler_(assembler),
       t_(t),
       velocity_(velocity),
@@ -90,7 +91,7 @@ StaticForces::StaticForces(Assembler& assembler, double t, const Vector3& veloci
   fill_velocity(assembler_.network(), velocity_, v_);
 }
 
-Vector3 StaticForces::frame_velocity(const Assembler& assembler, double t, double window) {
+Vector3 StaticForces::frame_velocity(const system::Assembler& assembler, double t, double window) {
   Vector3 common;
   if (!find_common_velocity(assembler, t, first_part * window, steadiness, common))
     find_common_velocity(assembler, t, window, agreement, common);
@@ -103,13 +104,14 @@ bool StaticForces::is_in_flow() const {
 }
 
 /// Against soft cables a hard bed is a wall, before which Newton's steps shrink to nothing.
-double StaticForces::bed_softness(const StaticRule& rule) const {
-  if (rule.kind == StaticRule::Kind::exact) return 1;
-  const double cable = rule.kind == StaticRule::Kind::strings ? rule.string_tension * rule.exponent : softest_cable_;
+double StaticForces::bed_softness(const system::StaticRule& rule) const {
+  if (rule.kind == system::StaticRule::Kind::exact) return 1;
+  const double cable =
+      rule.kind == system::StaticRule::Kind::strings ? rule.string_tension * rule.exponent : softest_cable_;
   return std::clamp(stiffest_bed_ / (bed_over_cables * cable), 1.0, softest_bed);
 }
 
-Situation StaticForces::situation(InternalForce internal, const StaticRule& rule) const {
+system::Situation StaticForces::situation(system::InternalForce internal, const system::StaticRule& rule) const {
   return {.stage = {t_, 0, 0},
           .internal = internal,
           .rule = rule,
@@ -119,16 +121,17 @@ Situation StaticForces::situation(InternalForce internal, const StaticRule& rule
 }
 
 void StaticForces::keep(Vec x) {
-  assembler_.begin(situation(InternalForce::of_statics, {StaticRule::Kind::ropes}), x, v_);
+  assembler_.begin(situation(system::InternalForce::of_statics, {system::StaticRule::Kind::ropes}), x, v_);
 }
 
-bool StaticForces::residual(const StaticRule& rule, Vec x, Vec r, TangentMatrix* tangent, const Steadying& steadying) {
-  const Situation now = situation(InternalForce::of_statics, rule);
+bool StaticForces::residual(const system::StaticRule& rule, Vec x, Vec r, system::TangentMatrix* tangent,
+                            const Steadying& steadying) {
+  const system::Situation now = situation(system::InternalForce::of_statics, rule);
   if (tangent == nullptr) return assembler_.evaluate(now, x, v_, resting_, r, nullptr);
   const double s = steadying.pseudo_rate;
-  const bool is_linear = rule.kind == StaticRule::Kind::strings && rule.exponent == 1;
-  const TangentRequest request{
-      *tangent, {1, s, s * s}, is_linear, rule.kind == StaticRule::Kind::exact ? 0 : steadying.steadiness};
+  const bool is_linear = rule.kind == system::StaticRule::Kind::strings && rule.exponent == 1;
+  const system::TangentRequest request{
+      *tangent, {1, s, s * s}, is_linear, rule.kind == system::StaticRule::Kind::exact ? 0 : steadying.steadiness};
   const bool in_domain = assembler_.evaluate(now, x, v_, resting_, r, &request);
   tangent->publish();
   return in_domain;
@@ -136,13 +139,13 @@ bool StaticForces::residual(const StaticRule& rule, Vec x, Vec r, TangentMatrix*
 
 /// The bed answers the other forces, enormously where the drawn shape lies in it.
 void StaticForces::loads(Vec x, Vec r) {
-  Situation now = situation(InternalForce::none, {});
+  system::Situation now = situation(system::InternalForce::none, {});
   now.bed_softness = 0;
   assembler_.evaluate(now, x, v_, resting_, r, nullptr);
 }
 
 TensionRange StaticForces::tensions(Vec x) {
-  const LocalState& state = assembler_.observe(t_, x, v_, resting_);
+  const system::LocalState& state = assembler_.observe(t_, x, v_, resting_);
   double range[2] = {0, 0};   // what counts against least, and largest
   const partition::LocalNetwork& network = assembler_.network();
   for (int i = 0; i < network.own_elements; ++i) {
@@ -156,4 +159,4 @@ TensionRange StaticForces::tensions(Vec x) {
   return {-range[0], range[1]};
 }
 
-}   // namespace cablenet::system
+}   // namespace cablenet::solve

@@ -1,7 +1,7 @@
 #pragma once
 #include "cablenet/system/assembler.hpp"
 
-namespace cablenet::system {
+namespace cablenet::solve {
 
 /// The tensions at an iterate [N].
 struct TensionRange {
@@ -12,7 +12,7 @@ struct TensionRange {
 /// What keeps a tangent definite away from equilibrium.
 struct Steadying {
   double pseudo_rate = 0;   ///< [1/s]
-  double steadiness = 0;    ///< as in TangentRequest; none with StaticRule::exact
+  double steadiness = 0;    ///< as in system::TangentRequest; none with system::StaticRule::exact
 };
 
 /// The network's forces at an instant, in a frame in which nothing moves: without inertia and waves.
@@ -20,21 +20,22 @@ struct Steadying {
 class StaticForces {
 public:
   /// @param velocity  of the frame [m/s]: the water and the bed move past it
-  StaticForces(Assembler& assembler, double t, const Vector3& velocity);
+  StaticForces(system::Assembler& assembler, double t, const Vector3& velocity);
 
   /// The one velocity that all prescribed nodes have in the first fifth of the window.  Otherwise each component is the
   /// middle of what occurs in the window, or zero where that varies by more than a quarter of the middle: heave, a
   /// start from rest, a point that stays.  [m/s]
   /// @param window  from t on [s]
-  static Vector3 frame_velocity(const Assembler& assembler, double t, double window);
+  static Vector3 frame_velocity(const system::Assembler& assembler, double t, double window);
 
   /// Water moves past the frame.  Not collective.
   bool is_in_flow() const;
-  /// Keeps an iterate's directions, which StaticRule::ropes needs of the last one.
+  /// Keeps an iterate's directions, which system::StaticRule::ropes needs of the last one.
   void keep(Vec x);
   /// r = internal forces - loads; with a matrix, also dr/dx + s^2 M + s dr/dv, s the pseudo-rate, published.  [N]
   /// @returns false on a rank where it is not defined
-  bool residual(const StaticRule& rule, Vec x, Vec r, TangentMatrix* tangent, const Steadying& steadying);
+  bool residual(const system::StaticRule& rule, Vec x, Vec r, system::TangentMatrix* tangent,
+                const Steadying& steadying);
   /// What the loads alone leave: r without internal forces, and without the bed.
   void loads(Vec x, Vec r);
   TensionRange tensions(Vec x);
@@ -42,15 +43,15 @@ public:
   void start_from(Vec x) { assembler_.start_from(t_, x, velocity_); }
 
 private:
-  Situation situation(InternalForce internal, const StaticRule& rule) const;
-  double bed_softness(const StaticRule& rule) const;
+  system::Situation situation(system::InternalForce internal, const system::StaticRule& rule) const;
+  double bed_softness(const system::StaticRule& rule) const;
 
-  Assembler& assembler_;
+  system::Assembler& assembler_;
   double t_;
   Vector3 velocity_;
   double stiffest_bed_;    ///< the largest of contact over an element, in stiffness, times EA [N]
   double softest_cable_;   ///< the least EA [N]
-  Vector v_, resting_;
+  system::Vector v_, resting_;
 };
 
-}   // namespace cablenet::system
+}   // namespace cablenet::solve
