@@ -100,7 +100,8 @@ def prefixes(bench):
     """With relax_ an option reaches the solvers that let a network settle in time, and only those."""
     (bench.folder / "settling.yaml").write_text(SETTLING)
     plain = bench("run", "settling.yaml", "-o", "settled", "-relax_snes_monitor")
-    expect(plain.returncode == 3 and "SNES Function norm" in plain.stdout, "-relax_snes_monitor prints where a network settles in time")
+    expect(plain.returncode == 3 and "SNES Function norm" in plain.stdout,
+           f"-relax_snes_monitor prints where a network settles in time: status {plain.returncode}, {plain.stderr[-300:]}")
     expect("SNES Function norm" not in bench("run", "settling.yaml", "-o", "settled", "-snes_monitor").stdout, "-snes_monitor does not")
     done = bench("run", "settling.yaml", "-o", "settled", "-relax_ts_monitor", "-relax_ts_max_steps", "3")
     times = [line.split() for line in done.stdout.splitlines() if " TS dt " in line]
