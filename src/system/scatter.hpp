@@ -6,6 +6,14 @@
 /// unknowns of node j [N/m].
 namespace cablenet::system {
 
+/// sign K + m I, whose values are made where they are written.
+struct ChordSlope {
+  const Matrix3& K;
+  double sign, m;
+
+  double operator()(int i, int j) const { return i == j ? sign * K(i, j) + m : sign * K(i, j); }
+};
+
 /// Of two nodes.  The forces depend on the chord alone, apart from a consistent mass: slopes are +K, -K and
 /// m [[2, 1], [1, 2]].
 struct ChordResponse {
@@ -14,10 +22,8 @@ struct ChordResponse {
   double m;
 
   template <int i, int j>
-  Matrix3 slope() const {
-    Matrix3 S = i == j ? K : Matrix3(-K);
-    S.diagonal().array() += (i == j ? 2 : 1) * m;
-    return S;
+  ChordSlope slope() const {
+    return {K, i == j ? 1.0 : -1.0, (i == j ? 2 : 1) * m};
   }
 };
 
@@ -47,11 +53,13 @@ inline void put_row(double* to, bool add, double x, double y, double z) {
 }
 
 /// Writes or adds a block.  @param owns_slot  the slot is the kernel's own, so that it says which of the two
-template <class Nodes, bool owns_slot>
-void put_block(const TangentTarget& target, const Slot& slot, const Matrix3& K) {
+template <class Nodes, bool owns_slot, class Block>
+void put_block(const TangentTarget& target, const Slot& slot, const Block& K) {
   if (Nodes::may_be_absent && slot.absent) return;
   double* to = (Nodes::may_be_absent && slot.other ? target.values[1] : target.values[0]) + slot.offset;
-  for (int i = 0; i < 3; ++i, to += slot.stride) put_row(to, !owns_slot || slot.add, K(i, 0), K(i, 1), K(i, 2));
+  put_row(to, !owns_slot || slot.add, K(0, 0), K(0, 1), K(0, 2));
+  put_row(to + slot.stride, !owns_slot || slot.add, K(1, 0), K(1, 1), K(1, 2));
+  put_row(to + 2 * slot.stride, !owns_slot || slot.add, K(2, 0), K(2, 1), K(2, 2));
 }
 
 template <class Nodes, bool owns_slot, class Response>
