@@ -24,6 +24,10 @@ constexpr double wanted = 1e-12, enough = 1e-9;
 /// Of rounding's own share.
 constexpr double rounding_margin = 16;
 
+/// How far away, over what is drawn, an equilibrium may be.  What falls without end comes to coordinates whose rounding
+/// hides the loads, and would pass.
+constexpr double farthest = 1e6;
+
 /// Of the total load: the tension that a slack rope turns by.
 constexpr double slack_tension = 1e-4;
 
@@ -186,7 +190,8 @@ double Statics::reference() const { return load_ > 0 ? load_ : scales_.load; }
 bool Statics::is_final(double now, double previous) const {
   const double noise = scales_.rounding(largest_coordinate_, 0);
   if (now <= wanted * reference()) return true;
-  return now > 0.5 * previous && (now <= enough * reference() || now <= rounding_margin * noise);
+  const bool is_lost = largest_coordinate_ > farthest * (largest_drawn_coordinate_ + assembler_.network().extent);
+  return now > 0.5 * previous && (now <= enough * reference() || (!is_lost && now <= rounding_margin * noise));
 }
 
 /// Iterates with a rule, to a norm or as far as rounding allows where that is 0.
