@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "cablenet/base/errors.hpp"
 #include "cablenet/petsc/handle.hpp"
@@ -37,43 +36,29 @@ double estimated_values(const partition::LocalNetwork& network) {
 
 }   // namespace
 
-int BlockPattern::Rows::find(LocalNode row, SolverNumber wanted) const {
-  const auto begin = column.begin() + first[at(row)], end = column.begin() + first[at(row) + 1];
-  return static_cast<int>(std::lower_bound(begin, end, wanted.value()) - column.begin());
-}
-
-int BlockPattern::Rows::row_values(LocalNode row) const {
-  return values.empty() ? 9 * first[at(row)] : values[at(row)];
-}
-
-int BlockPattern::Rows::column_values(LocalNode row, int block) const {
-  return values.empty() ? 3 * (block - first[at(row)]) : offset[at(block)];
-}
-
-int BlockPattern::Rows::width(LocalNode row, int size) const {
-  return values.empty() ? 3 * (first[at(row) + 1] - first[at(row)]) : (values[at(row) + 1] - values[at(row)]) / size;
-}
-
-BlockPattern::BlockPattern(const partition::LocalNetwork& network) : network_(network) {}
-
 Slot BlockPattern::block(LocalNode row_node, LocalNode column_node) {
   const LocalNode row = network_.anchor(row_node), column = network_.anchor(column_node);
   if (!network_.is_owned(row) || !network_.is_free(column)) return {};
   const bool other = !network_.is_owned(column);
   const SolverNumber number = network_.number(column);
   if (!is_fixed_) {
-    if (row != column) noted_.push_back({row, number, other});
+    if (row != column) noted_.push_back({other, row, number});
     return {};
   }
   Rows& rows = rows_[other ? 1 : 0];
-  const int block = rows.find(row, number);
   Slot slot;
-  slot.offset = rows.row_values(row) + rows.column_values(row, block);
-  slot.stride = static_cast<unsigned>(rows.width(row, size(network_.number(row)))) & 0x1fffffff;
+  int width = 0;
+  for (std::size_t i = at(rows.first[at(row)]); i < at(rows.first[at(row) + 1]); ++i) {
+    if (rows.column[i] == number) {
+      slot.offset = rows.begin[at(row)] + width;
+      slot.add = rows.written[i];
+      rows.written[i] = true;
+    }
+    width += size(rows.column[i]);
+  }
+  slot.stride = static_cast<unsigned>(width) & 0x1fffffff;
   slot.other = other;
   slot.absent = 0;
-  slot.add = rows.written[at(block)];
-  rows.written[at(block)] = true;
   return slot;
 }
 
@@ -88,63 +73,30 @@ PairSlots BlockPattern::pair(const std::array<LocalNode, 2>& node) {
   return slots;
 }
 
-void BlockPattern::add_elements() {
-  elements_.resize(network_.elements.size());
-  for (std::size_t i = 0; i < elements_.size(); ++i) elements_[i] = pair(network_.elements[i].node);
-}
-
+/// Every owned node has a block with itself.
 void BlockPattern::fix(MPI_Comm communicator) {
   check_size(estimated_values(network_), communicator);
-  for (const bool other : {false, true}) {
-    Rows& rows = rows_[other ? 1 : 0];
-    rows = compress(other);
-    rows.written.assign(rows.column.size(), false);
-    if (!network_.blocks.uniform()) measure(rows);
+  for (LocalNode node(0); network_.is_owned(node); ++node) noted_.push_back({false, node, network_.number(node)});
+  std::sort(noted_.begin(), noted_.end());
+  noted_.erase(std::unique(noted_.begin(), noted_.end()), noted_.end());
+  auto pair = noted_.begin();
+  for (Rows& rows : rows_) {
+    const bool other = &rows == &rows_[1];
+    for (LocalNode row(0); network_.is_owned(row); ++row) {
+      int width = 0;
+      for (; pair != noted_.end() && pair->other == other && pair->row == row; ++pair) {
+        rows.column.push_back(pair->column);
+        width += size(pair->column);
+      }
+      rows.first.push_back(static_cast<int>(rows.column.size()));
+      rows.begin.push_back(rows.begin.back() + width * size(network_.number(row)));
+    }
+    rows.written.resize(rows.column.size());
   }
   noted_ = {};
   is_fixed_ = true;
-  for (int b = 0; b < network_.own_bodies; ++b) {
-    const LocalNode node = network_.bodies[at(b)].node;
-    rows_[0].written[at(rows_[0].find(node, network_.number(node)))] = true;
-  }
-}
-
-/// Every owned node has a block with itself.
-BlockPattern::Rows BlockPattern::compress(bool other) const {
-  const auto for_each = [&](const auto& visit) {
-    for (LocalNode node(0); !other && node.value() < network_.owned; ++node) visit(node, network_.number(node));
-    for (const Pair& pair : noted_)
-      if (pair.other == other) visit(pair.row, pair.column);
-  };
-  std::vector<int> next(at(network_.owned) + 1, 0);
-  for_each([&](LocalNode row, SolverNumber) { ++next[at(row) + 1]; });
-  std::partial_sum(next.begin(), next.end(), next.begin());
-  const std::vector<int> first = next;
-  Rows rows;
-  rows.column.resize(at(next.back()));
-  for_each([&](LocalNode row, SolverNumber column) { rows.column[at(next[at(row)]++)] = column.value(); });
-  rows.first.push_back(0);
-  auto to = rows.column.begin();
-  for (int row = 0; row < network_.owned; ++row) {
-    const auto begin = rows.column.begin() + first[at(row)], end = rows.column.begin() + first[at(row) + 1];
-    std::sort(begin, end);
-    to = std::copy(begin, std::unique(begin, end), to);
-    rows.first.push_back(static_cast<int>(to - rows.column.begin()));
-  }
-  rows.column.resize(at(rows.first.back()));
-  return rows;
-}
-
-void BlockPattern::measure(Rows& rows) const {
-  rows.values.push_back(0);
-  for (LocalNode row(0); row.value() < network_.owned; ++row) {
-    int width = 0;
-    for (int i = rows.first[at(row)]; i < rows.first[at(row) + 1]; ++i) {
-      rows.offset.push_back(width);
-      width += size(SolverNumber(rows.column[at(i)]));
-    }
-    rows.values.push_back(rows.values.back() + width * size(network_.number(row)));
-  }
+  // A body clears its own block.
+  for (int b = 0; b < network_.own_bodies; ++b) block(network_.bodies[at(b)].node, network_.bodies[at(b)].node);
 }
 
 void BlockPattern::preallocate(Mat matrix) const {
@@ -156,7 +108,7 @@ void BlockPattern::preallocate(Mat matrix) const {
       const auto begin = static_cast<std::ptrdiff_t>(columns.size());
       for (const Rows& rows : rows_)
         for (int i = rows.first[at(row)]; i < rows.first[at(row) + 1]; ++i) {
-          const SolverNumber column(rows.column[at(i)]);
+          const SolverNumber column = rows.column[at(i)];
           for (int c = 0; c < size(column); ++c) columns.push_back(network_.blocks.begin(column) + c);
         }
       std::sort(columns.begin() + begin, columns.end());

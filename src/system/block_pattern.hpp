@@ -16,7 +16,7 @@ namespace cablenet::system {
 /// nothing has to be cleared.  A body's own block is the exception: the body clears it, and all add.
 class BlockPattern {
 public:
-  explicit BlockPattern(const partition::LocalNetwork& network);
+  explicit BlockPattern(const partition::LocalNetwork& network) : network_(network) {}
 
   /// The block of two nodes.  A carried node stands for its body.
   Slot block(LocalNode row, LocalNode column);
@@ -24,36 +24,42 @@ public:
   Slot own(LocalNode node) { return network_.is_carried(node) ? Slot{} : block(node, node); }
   /// The blocks of two nodes without those of carried nodes with themselves, which their body collects.
   PairSlots pair(const std::array<LocalNode, 2>& node);
+  /// Those of each item: an item has one node, or two.
+  template <class Item>
+  std::vector<Slot> own(const std::vector<Item>& items) {
+    std::vector<Slot> slots(items.size());
+    for (std::size_t i = 0; i < items.size(); ++i) slots[i] = own(items[i].node);
+    return slots;
+  }
+  template <class Item>
+  std::vector<PairSlots> pairs(const std::vector<Item>& items) {
+    std::vector<PairSlots> slots(items.size());
+    for (std::size_t i = 0; i < items.size(); ++i) slots[i] = pair(items[i].node);
+    return slots;
+  }
 
   /// All blocks are noted.
   /// Collective.  @throws InputError on every rank alike where a rank has more values than 32 bits can count.
   void fix(MPI_Comm communicator);
   /// The pair slots of the network's elements, which several terms write to.
   const std::vector<PairSlots>& elements() const { return elements_; }
-  void add_elements();
+  void add_elements() { elements_ = pairs(network_.elements); }
   void preallocate(Mat matrix) const;
 
 private:
-  /// Block columns of each owned node's row, ascending, in compressed rows.
+  /// Block columns of each owned node's row, ascending, in compressed rows; and the first value of each row.
   struct Rows {
-    std::vector<int> first, column;
-    /// Where sizes differ: per row, and one past, its first value; per block, its first column in the row's values.
-    std::vector<int> values, offset;
+    std::vector<int> first{0}, begin{0};
+    std::vector<SolverNumber> column;
     std::vector<bool> written;
-
-    int find(LocalNode row, SolverNumber wanted) const;
-    int row_values(LocalNode row) const;
-    int column_values(LocalNode row, int block) const;
-    int width(LocalNode row, int size) const;
   };
   struct Pair {
+    bool other;
     LocalNode row;
     SolverNumber column;
-    bool other;
+    auto operator<=>(const Pair&) const = default;
   };
 
-  Rows compress(bool other) const;
-  void measure(Rows& rows) const;
   int size(SolverNumber number) const { return network_.blocks.size(number); }
 
   const partition::LocalNetwork& network_;
