@@ -24,12 +24,9 @@ GhostExchange::GhostExchange(const partition::LocalNetwork& network, MPI_Comm co
   with_bodies_ = !network.blocks.uniform();
   if (alone_) return;
   for (const LocalNode node : network.sent) sent_nodes_.push_back(network.begin[node]);
-  std::vector<PetscSFNode> places;
-  for (std::size_t i = 0; i < network.ghost_owner.size(); ++i)
-    places.push_back({network.ghost_owner[i], network.ghost_index[i]});
-  std::vector<PetscInt> leaves(places.size());
+  std::vector<PetscInt> leaves(network.ghost_owner.size());
   std::iota(leaves.begin(), leaves.end(), 0);
-  nodes_.set_up(communicator, sent_nodes_.size(), leaves, places);
+  nodes_.set_up(communicator, sent_nodes_.size(), std::move(leaves), network.ghost_owner, network.ghost_index);
   if (with_bodies_) set_up_bodies(network, communicator);
 }
 
@@ -38,13 +35,9 @@ void GhostExchange::set_up_bodies(const partition::LocalNetwork& network, MPI_Co
     if (const int more = network.blocks.size(network.number(network.sent[i])) - 3; more > 0)
       sent_bodies_.push_back({i, sent_nodes_[i] + 3, more});
   std::vector<PetscInt> leaves;
-  std::vector<PetscSFNode> places;
-  for (std::size_t i = 0; i < network.ghost_owner.size(); ++i)
-    if (network.blocks.size(network.ghost_number[i]) > 3) {
-      leaves.push_back(static_cast<PetscInt>(i));
-      places.push_back({network.ghost_owner[i], network.ghost_index[i]});
-    }
-  rotations_.set_up(communicator, sent_nodes_.size(), std::move(leaves), std::move(places));
+  for (int i = 0; i < network.ghosts; ++i)
+    if (network.blocks.size(network.ghost_number[at(i)]) > 3) leaves.push_back(i);
+  rotations_.set_up(communicator, sent_nodes_.size(), std::move(leaves), network.ghost_owner, network.ghost_index);
 }
 
 void GhostExchange::begin(const double* x, const double* v, const double* a, NodeMotion* ghosts,

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "cablenet/base/index.hpp"
 #include "cablenet/petsc/handle.hpp"
 
 namespace cablenet::petsc {
@@ -13,8 +14,11 @@ template <class Item>
 struct Broadcast {
   /// @param roots   the number of items that this rank sends
   /// @param leaves  per item that is received here, its index in what begin() is given
-  /// @param places  per item that is received here, its owner and its index there
-  void set_up(MPI_Comm communicator, std::size_t roots, std::vector<PetscInt> leaves, std::vector<PetscSFNode> places) {
+  /// @param owner, index  per item that begin() is given, its owner and its index there
+  void set_up(MPI_Comm communicator, std::size_t roots, std::vector<PetscInt> leaves, const std::vector<int>& owner,
+              const std::vector<int>& index) {
+    std::vector<PetscSFNode> places;
+    for (const PetscInt leaf : leaves) places.push_back({owner[at(leaf)], index[at(leaf)]});
     sent.resize(roots);
     check(PetscSFCreate(communicator, forest.out()));
     check(PetscSFSetGraph(forest, static_cast<PetscInt>(roots), static_cast<PetscInt>(places.size()), leaves.data(),
