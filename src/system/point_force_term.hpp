@@ -26,11 +26,9 @@ private:
     scene::ForceLaw force;
     Vector3 start, stage;   ///< where the node is at the step's start and at its last stage [m]
   };
-  struct Kernel;
 
   std::vector<ForcedPoint> points_;
-  std::vector<Slot> slots_;   ///< All are absent: the forces depend on no motion.
-  double work_ = 0;           ///< since the start [J]
+  double work_ = 0;   ///< since the start [J]
 };
 
 }   // namespace cablenet::system
