@@ -3,20 +3,8 @@
 
 #include "carried_kernels.hpp"
 
-/// The loops over what is not an element: items with one node or two.
+/// The loop over what is not an element: items with one node.
 namespace cablenet::system {
-
-/// A kernel of two nodes on items that have two, of which one at least is carried.
-template <class Kernel, class Item>
-void add_to_pairs(Evaluation& evaluation, const Kernel& kernel, const std::vector<Item>& items,
-                  const std::vector<PairSlots>& slots) {
-  evaluation.complete();
-  const CarriedScatter scatter(evaluation);
-  visit_parts(evaluation, [&]<bool, bool with_tangent>() {
-    for (std::size_t i = 0; i < items.size(); ++i)
-      add_carried_pair<with_tangent>(scatter, kernel, i, items[i], slots[i], evaluation.target.shift);
-  });
-}
 
 /// A kernel of one node on items that have one each.
 template <class Kernel, class Item>

@@ -1,38 +1,17 @@
 #include "link_term.hpp"
 
-#include "item_loops.hpp"
+#include "carried_scatter.hpp"
 
 namespace cablenet::system {
 namespace {
 
-struct LinkKernel {
-  using Response = ChordResponse;
-  static constexpr bool owns_slots = true;
+/// By the nodes' positions alone.
+struct LinkSlopes {
+  double stiffness;
 
-  struct Apart {
-    std::array<Vector3, 2> forces;
-    double stiffness;
-
-    template <class Link>
-    bool fill(const LinkKernel& kernel, std::size_t i, const Link& link, const AnyNodes& nodes) {
-      ChordResponse response;
-      kernel.evaluate<true, false>(i, link, nodes, Shift{}, response);
-      forces = response.on;
-      stiffness = link.stiffness;
-      return true;
-    }
-    const Vector3& on(std::size_t i) const { return forces[i]; }
-    double x(std::size_t i, std::size_t j) const { return i == j ? stiffness : -stiffness; }
-    NoSlope v(std::size_t, std::size_t) const { return {}; }
-    NoSlope a(std::size_t, std::size_t) const { return {}; }
-  };
-
-  template <bool with_residual, bool with_tangent, class Link>
-  bool evaluate(std::size_t, const Link& link, const AnyNodes& nodes, const Shift&, Response& out) const {
-    const Vector3 force = link.stiffness * difference(nodes.x(link.node[1]), nodes.x(link.node[0]));
-    out.on = {-force, force};
-    return true;
-  }
+  double x(std::size_t i, std::size_t j) const { return i == j ? stiffness : -stiffness; }
+  NoSlope v(std::size_t, std::size_t) const { return {}; }
+  NoSlope a(std::size_t, std::size_t) const { return {}; }
 };
 
 }   // namespace
@@ -43,7 +22,15 @@ void LinkTerm::couplings(BlockPattern& pattern) {
 
 void LinkTerm::add(Evaluation& evaluation) {
   if (slots_.empty()) return;
-  add_to_pairs(evaluation, LinkKernel{}, network_.links, slots_);
+  evaluation.complete();
+  const CarriedScatter scatter(evaluation);
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    const auto& [node, stiffness] = network_.links[i];
+    const Vector3 force = stiffness * difference(scatter.nodes().x(node[1]), scatter.nodes().x(node[0]));
+    scatter.add_force(node[0], -force);
+    scatter.add_force(node[1], force);
+    if (evaluation.has_tangent) scatter.add_pair<true>(node, slots_[i], LinkSlopes{stiffness}, evaluation.target.shift);
+  }
 }
 
 void LinkTerm::add_energy(const LocalState& state, Energies& sum) const {
