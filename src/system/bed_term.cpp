@@ -6,8 +6,6 @@
 namespace cablenet::system {
 namespace {
 
-double square(double value) { return value * value; }
-
 /// The bed's force on an end of an element, which stands for half the element's length.
 struct BedKernel {
   static constexpr bool owns_slots = false;
@@ -54,10 +52,9 @@ void BedTerm::add(Evaluation& evaluation) {
 void BedTerm::add_scales(ForceSums& sums) const {
   const auto& bed = network_.surroundings.bed;
   if (!bed) return;
-  for_each_element(network_, {0, network_.own_elements}, [&](std::size_t, const partition::LocalElement& e) {
+  for (const partition::LocalElement& e : own_elements()) {
     sums.bed += square(bed->level * bed->stiffness * network_.surroundings.on_bed[at(e.material)].diameter * e.length);
-    return true;
-  });
+  }
 }
 
 Vector3 BedTerm::end_force(const LocalState& state, int element, std::size_t end) const {

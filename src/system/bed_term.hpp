@@ -6,16 +6,13 @@ namespace cablenet::system {
 /// Contact of cables with the bed and friction on it.  Tests: tests/parallel/surroundings_test.cpp
 class BedTerm : public Term {
 public:
-  explicit BedTerm(const partition::LocalNetwork& network) : network_(network) {}
+  using Term::Term;
 
   bool has_rates() const { return network_.surroundings.bed.has_value(); }
-  bool is_symmetric(const ForceRule&) const { return !network_.surroundings.bed.has_value(); }
+  bool is_symmetric(const ForceRule&) const { return !has_rates(); }
   void add(Evaluation& evaluation);
   void add_scales(ForceSums& sums) const;
   Vector3 end_force(const LocalState& state, int element, std::size_t end) const;
-
-private:
-  const partition::LocalNetwork& network_;
 };
 
 }   // namespace cablenet::system

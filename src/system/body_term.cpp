@@ -10,22 +10,12 @@ namespace {
 using Const3 = Eigen::Map<const Vector3>;
 using Map3 = Eigen::Map<Vector3>;
 
-double square(double value) { return value * value; }
-
 }   // namespace
 
 BodyTerm::BodyTerm(const partition::LocalNetwork& network)
-    : network_(network),
-      starts_(network.bodies.size()),
-      forces_(network.bodies.size()),
-      carried_(network),
-      slots_(at(network.own_bodies)) {
+    : Term(network), starts_(network.bodies.size()), forces_(network.bodies.size()), carried_(network) {
   for (std::size_t k = 0; k < carried_.tangents.size(); ++k)
     carried_.tangents[k].unknowns = unknowns(network.carried[k].body);
-}
-
-void BodyTerm::couplings(BlockPattern& pattern) {
-  for (int b = 0; b < network_.own_bodies; ++b) slots_[at(b)] = pattern.own(network_.bodies[at(b)].node);
 }
 
 bodies::RotationState BodyTerm::rotation(int body, const NodeData& data) const {

@@ -28,7 +28,7 @@ public:
 
   /// Bodies with an attitude have blocks larger than 3x3 somewhere.
   bool is_symmetric(const ForceRule&) const { return network_.blocks.uniform(); }
-  void couplings(BlockPattern& pattern);
+  void couplings(BlockPattern& pattern) { slots_ = pattern.own(network_.bodies); }
   void begin_step(Evaluation& evaluation);
   void add(Evaluation& evaluation);
   void end_step(const StepEnd& end);
@@ -43,7 +43,6 @@ private:
   double largest_torque(int body, const NodeData& data) const;
   void add_block(int body, const TangentTarget& target);
 
-  const partition::LocalNetwork& network_;
   std::vector<bodies::Start> starts_;
   std::vector<bodies::StageForces> forces_;
   CarriedNodes carried_;

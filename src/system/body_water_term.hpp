@@ -1,24 +1,19 @@
 #pragma once
 #include "body_term.hpp"
 #include "cablenet/bodies/body_in_water.hpp"
-#include "water_choice.hpp"
+#include "water_term.hpp"
 
 namespace cablenet::system {
 
 /// Drag and added mass of bodies at their centres of gravity.  Tests: tests/parallel/surroundings_test.cpp
-class BodyWaterTerm : public Term {
+class BodyWaterTerm : public WaterTerm {
 public:
-  explicit BodyWaterTerm(const partition::LocalNetwork& network) : network_(network), water_(network.surroundings) {}
+  using WaterTerm::WaterTerm;
 
-  bool has_rates() const { return water_.exists(); }
-  bool is_symmetric(const ForceRule&) const { return !water_.exists(); }
   void add(Evaluation& evaluation);
 
 private:
   void add_slopes(int body, const bodies::BodyLoad& load, const Matrix3& R, Evaluation& evaluation) const;
-
-  const partition::LocalNetwork& network_;
-  WaterChoice water_;
 };
 
 }   // namespace cablenet::system

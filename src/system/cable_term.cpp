@@ -10,8 +10,6 @@
 namespace cablenet::system {
 namespace {
 
-double square(double value) { return value * value; }
-
 /// The slopes of an element at a body.
 template <bool is_general>
 struct ChordApart {
@@ -94,7 +92,7 @@ struct CableKernel {
 }   // namespace
 
 CableTerm::CableTerm(const partition::LocalNetwork& network)
-    : network_(network),
+    : Term(network),
       is_general_(!std::all_of(network.materials.begin(), network.materials.end(), elements::is_elastic)) {}
 
 bool CableTerm::is_symmetric(const ForceRule& rule) const {
@@ -139,20 +137,19 @@ void CableTerm::add(Evaluation& evaluation) {
 }
 
 void CableTerm::add_energy(const LocalState& state, Energies& sum) const {
-  for_each_element(network_, {0, network_.own_elements}, [&](std::size_t, const partition::LocalElement& e) {
+  for (const partition::LocalElement& e : own_elements()) {
     const elements::CableMaterial& material = network_.materials[at(e.material)];
     const auto [n1, n2] = e.node;
     const double height = 0.5 * (state.position(n1).z() + state.position(n2).z());
     sum.kinetic += elements::cable_kinetic_energy(material, e.length, state.velocity(n1), state.velocity(n2));
     sum.strain += elements::cable_strain_energy(material, e.length, state.chord(e).d);
     sum.gravity += material.mass_per_length * e.length * network_.gravity * height;
-    return true;
-  });
+  }
 }
 
 /// From the drawn start.
 void CableTerm::add_scales(ForceSums& sums) const {
-  for_each_element(network_, {0, network_.own_elements}, [&](std::size_t, const partition::LocalElement& e) {
+  for (const partition::LocalElement& e : own_elements()) {
     const elements::CableMaterial& material = network_.materials[at(e.material)];
     const double m = material.mass_per_length * e.length;
     const Vector3 &v1 = network_.velocity[e.node[0]], &v2 = network_.velocity[e.node[1]];
@@ -162,8 +159,7 @@ void CableTerm::add_scales(ForceSums& sums) const {
     sums.load += square(tension) + square(m * network_.gravity) + square(m * speed * speed / e.length);
     sums.stiffness += square(2 * material.axial_stiffness / e.length);
     sums.mass += square(m);
-    return true;
-  });
+  }
 }
 
 Vector3 CableTerm::end_force(const LocalState& state, int element, std::size_t end) const {

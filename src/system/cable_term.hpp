@@ -27,7 +27,6 @@ private:
   template <class Law>
   std::vector<typename Law::Start>& starts();
 
-  const partition::LocalNetwork& network_;
   bool is_general_;   ///< Some material is damped, or goes slack.
   /// What the laws keep of each element at the step's start: one array per kind.  Only the law in use has elements.
   std::tuple<std::vector<elements::NoStart>, std::vector<elements::AveragedStart<false>>,

@@ -42,10 +42,10 @@ struct WaterKernel {
 }   // namespace
 
 void CableWaterTerm::add(Evaluation& evaluation) {
-  if (!water_.exists()) return;
+  if (!has_rates()) return;
   Shift shift = evaluation.target.shift;
   if (evaluation.target.holds_water) shift.x = 0;
-  elements::visit_water(water_.fluid(evaluation.situation.is_calm), evaluation.time(), network_.gravity,
+  elements::visit_water(fluid(evaluation.situation.is_calm), evaluation.time(), network_.gravity,
                         [&]<class Water>(const Water& water) {
                           add_to_elements(evaluation, WaterKernel<Water>{network_, water}, shift);
                         });
@@ -53,8 +53,8 @@ void CableWaterTerm::add(Evaluation& evaluation) {
 
 Vector3 CableWaterTerm::end_force(const LocalState& state, int element, std::size_t end) const {
   PairResponse response{};
-  if (!water_.exists()) return Vector3::Zero();
-  elements::visit_water(water_.fluid(state.is_calm), state.t, network_.gravity, [&]<class Water>(const Water& water) {
+  if (!has_rates()) return Vector3::Zero();
+  elements::visit_water(fluid(state.is_calm), state.t, network_.gravity, [&]<class Water>(const Water& water) {
     WaterKernel<Water>{network_, water}.template evaluate<true, false>(0, network_.elements[at(element)],
                                                                        StateNodes{state}, {}, response);
   });

@@ -16,10 +16,6 @@ struct LinkSlopes {
 
 }   // namespace
 
-void LinkTerm::couplings(BlockPattern& pattern) {
-  for (std::size_t i = 0; i < slots_.size(); ++i) slots_[i] = pattern.pair(network_.links[i].node);
-}
-
 void LinkTerm::add(Evaluation& evaluation) {
   if (slots_.empty()) return;
   evaluation.complete();
@@ -41,8 +37,7 @@ void LinkTerm::add_energy(const LocalState& state, Energies& sum) const {
 }
 
 void LinkTerm::add_scales(ForceSums& sums) const {
-  for (int i = 0; i < network_.own_links; ++i)
-    sums.stiffness += 4 * network_.links[at(i)].stiffness * network_.links[at(i)].stiffness;
+  for (int i = 0; i < network_.own_links; ++i) sums.stiffness += square(2 * network_.links[at(i)].stiffness);
 }
 
 }   // namespace cablenet::system

@@ -9,15 +9,14 @@ namespace cablenet::system {
 /// schemes take it at the stage, as it is linear in positions.  Tests: tests/parallel/bodies_test.cpp
 class LinkTerm : public Term {
 public:
-  explicit LinkTerm(const partition::LocalNetwork& network) : network_(network), slots_(network.links.size()) {}
+  using Term::Term;
 
-  void couplings(BlockPattern& pattern);
+  void couplings(BlockPattern& pattern) { slots_ = pattern.pairs(network_.links); }
   void add(Evaluation& evaluation);
   void add_energy(const LocalState& state, Energies& sum) const;
   void add_scales(ForceSums& sums) const;
 
 private:
-  const partition::LocalNetwork& network_;
   std::vector<PairSlots> slots_;
 };
 

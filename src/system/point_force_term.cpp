@@ -2,7 +2,7 @@
 
 namespace cablenet::system {
 
-PointForceTerm::PointForceTerm(const partition::LocalNetwork& network) {
+PointForceTerm::PointForceTerm(const partition::LocalNetwork& network) : Term(network) {
   for (const auto& [node, point] : network.points)
     if (point.force_law) points_.push_back({node, *point.force_law, network.position[node], network.position[node]});
 }
@@ -26,7 +26,7 @@ void PointForceTerm::end_step(const StepEnd& end) {
 }
 
 void PointForceTerm::add_scales(ForceSums& sums) const {
-  for (const ForcedPoint& point : points_) sums.load += point.force.largest() * point.force.largest();
+  for (const ForcedPoint& point : points_) sums.load += square(point.force.largest());
 }
 
 Vector3 PointForceTerm::node_force(const LocalState& state, LocalNode node) const {

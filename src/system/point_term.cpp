@@ -24,14 +24,6 @@ struct PointKernel {
 
 }   // namespace
 
-PointTerm::PointTerm(const partition::LocalNetwork& network) : network_(network), slots_(network.loads.size()) {
-  for (std::size_t i = 0; i < network.loads.size(); ++i) load_at_[network.loads[i].node.value()] = i;
-}
-
-void PointTerm::couplings(BlockPattern& pattern) {
-  for (std::size_t i = 0; i < slots_.size(); ++i) slots_[i] = pattern.own(network_.loads[i].node);
-}
-
 void PointTerm::add(Evaluation& evaluation) {
   if (!slots_.empty()) add_to_nodes(evaluation, PointKernel{network_}, network_.loads, slots_);
 }
@@ -47,17 +39,16 @@ void PointTerm::add_energy(const LocalState& state, Energies& sum) const {
 
 void PointTerm::add_scales(ForceSums& sums) const {
   for (const auto& load : network_.loads) {
-    const double weight = load.mass * network_.gravity;
-    sums.load += weight * weight + load.force.squaredNorm();
-    sums.mass += load.mass * load.mass;
+    sums.load += square(load.mass * network_.gravity) + load.force.squaredNorm();
+    sums.mass += square(load.mass);
   }
 }
 
 Vector3 PointTerm::node_force(const LocalState& state, LocalNode node) const {
   NodeResponse response;
   response.on.setZero();
-  if (const auto found = load_at_.find(node.value()); found != load_at_.end())
-    PointKernel{network_}.evaluate<false>(found->second, node, StateNodes{state}, response);
+  for (std::size_t i = 0; i < network_.loads.size(); ++i)
+    if (network_.loads[i].node == node) PointKernel{network_}.evaluate<false>(i, node, StateNodes{state}, response);
   return response.on;
 }
 

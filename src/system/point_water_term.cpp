@@ -25,14 +25,10 @@ struct PointWaterKernel {
 
 }   // namespace
 
-void PointWaterTerm::couplings(BlockPattern& pattern) {
-  for (std::size_t i = 0; i < slots_.size(); ++i) slots_[i] = pattern.own(network_.wet_points[i].node);
-}
-
 void PointWaterTerm::add(Evaluation& evaluation) {
   if (slots_.empty()) return;
-  const environment::Fluid& fluid = water_.fluid(evaluation.situation.is_calm);
-  add_to_nodes(evaluation, PointWaterKernel{network_, fluid, evaluation.time()}, network_.wet_points, slots_);
+  const PointWaterKernel kernel{network_, fluid(evaluation.situation.is_calm), evaluation.time()};
+  add_to_nodes(evaluation, kernel, network_.wet_points, slots_);
 }
 
 }   // namespace cablenet::system

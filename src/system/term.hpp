@@ -1,4 +1,6 @@
 #pragma once
+#include <span>
+
 #include "block_pattern.hpp"
 #include "cablenet/base/archive.hpp"
 #include "cablenet/system/force_scales.hpp"
@@ -6,6 +8,8 @@
 #include "evaluation.hpp"
 
 namespace cablenet::system {
+
+inline double square(double value) { return value * value; }
 
 /// The end of an accepted step, and the vectors' values there.
 struct StepEnd {
@@ -20,7 +24,10 @@ struct StepEnd {
 ///   void add(Evaluation&);
 /// which adds its share of r = M a + internal forces - loads [N] and of dr/dx shift.x + dr/dv shift.v + dr/da shift.a
 /// [N/m], as far as the evaluation asks for them.
-struct Term {
+class Term {
+public:
+  explicit Term(const partition::LocalNetwork& network) : network_(network) {}
+
   /// Some of its forces depend on velocities.
   bool has_rates() const { return false; }
   /// Its tangent is symmetric, whatever the state.
@@ -42,6 +49,14 @@ struct Term {
   Vector3 node_force(const LocalState&, LocalNode) const { return Vector3::Zero(); }
   /// Saves or loads what is kept from step to step.
   void archive(Archive&) {}
+
+protected:
+  /// Those that this rank speaks for.
+  std::span<const partition::LocalElement> own_elements() const {
+    return {network_.elements.data(), at(network_.own_elements)};
+  }
+
+  const partition::LocalNetwork& network_;
 };
 
 }   // namespace cablenet::system
