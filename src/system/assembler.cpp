@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "cablenet/petsc/phase.hpp"
-#include "network_start.hpp"
 #include "prescribed_nodes.hpp"
 #include "terms.hpp"
 
@@ -22,23 +21,6 @@ std::tuple<T...> make_terms(const partition::LocalNetwork& network, std::tuple<T
 template <class Tuple, class Visit>
 void for_each_term(Tuple& terms, Visit&& visit) {
   std::apply([&](auto&... term) { (visit(term), ...); }, terms);
-}
-
-/// Prescribed nodes are where their motions have them.
-void copy_state(const partition::LocalNetwork& network, double t, const AnyNodes& nodes, LocalState& state) {
-  state.t = t;
-  for (auto* field : {&state.x, &state.v, &state.a}) field->resize(3 * at(network.nodes));
-  for (LocalNode node(0); node.value() < network.nodes; ++node) {
-    std::copy_n(nodes.x(node), 3, state.x.data() + 3 * at(node));
-    std::copy_n(nodes.v(node), 3, state.v.data() + 3 * at(node));
-    std::copy_n(nodes.a(node), 3, state.a.data() + 3 * at(node));
-  }
-  for (const auto& [node, motion] : network.prescribed) {
-    const scene::Kinematics k = motion.at(t);
-    std::copy_n(k.x.data(), 3, state.x.data() + 3 * at(node));
-    std::copy_n(k.v.data(), 3, state.v.data() + 3 * at(node));
-    std::copy_n(k.a.data(), 3, state.a.data() + 3 * at(node));
-  }
 }
 
 }   // namespace
@@ -90,33 +72,46 @@ TangentMatrix Assembler::make_tangent() const {
   return {network_, parts_->pattern, is_symmetric, communicator_};
 }
 
-void Assembler::fill_initial(Vec x, Vec v) const { fill_start(network_, x, v); }
+void Assembler::fill_initial(Vec x, Vec v) const {
+  const petsc::WrittenValues to_x(x), to_v(v);
+  for (LocalNode node(0); network_.is_owned(node); ++node) {
+    Eigen::Map<Vector3>(to_x + network_.begin[node].value()) = network_.position[node];
+    Eigen::Map<Vector3>(to_v + network_.begin[node].value()) = network_.velocity[node];
+  }
+  for (int b = 0; b < network_.own_bodies; ++b) parts_->bodies().put(b, network_.bodies[at(b)].start, to_x, to_v);
+}
 
 void Assembler::start_from(double t, Vec x, const Vector3& velocity) {
   const Vector resting = make_vector();
-  set_start(observe(t, x, resting, resting), velocity, network_);
+  const LocalState& state = observe(t, x, resting, resting);
+  for (LocalNode node(0); node.value() < network_.nodes; ++node) {
+    const bool is_moved_along = network_.is_free(node) || network_.is_carried(node);
+    network_.position[node] = state.position(node);
+    network_.velocity[node] = is_moved_along ? velocity : Vector3(state.velocity(node));
+  }
+  for (partition::LocalBody& body : network_.bodies) {
+    const Quaternion& attitude = state.bodies[at(&body - network_.bodies.data())].attitude;
+    body.start = bodies::rotation_state(body.properties.rotation, attitude, Vector3::Zero());
+  }
 }
 
 void Assembler::begin(const Situation& situation, Vec x, Vec v) {
   const OpenVectors vectors(network_, parts_->outside, x, v, nullptr, nullptr);
-  const NodeData& data = vectors.data();
+  const NodeData& data = vectors.data;
   evaluated_ = {};
   parts_->exchange.begin(data.x, data.v, nullptr, data.outside, data.ghost_rotations);
-  parts_->prescribed.place_start(situation, data.outside);
+  parts_->prescribed.place(situation, rule_.has_mean_acceleration(), data.outside);
   parts_->exchange.end();
   Evaluation evaluation{
       network_, data, situation, rule_, parts_->exchange, parts_->bodies(), parts_->bodies().carried()};
-  // Bodies place the nodes that they carry, which the others look at.
-  parts_->bodies().begin_step(evaluation);
-  for_each_term(parts_->terms, [&]<class T>(T& term) {
-    if constexpr (!std::is_same_v<T, BodyTerm>) term.begin_step(evaluation);
-  });
+  parts_->bodies().start_step(data);
+  for_each_term(parts_->terms, [&](auto& term) { term.begin_step(evaluation); });
 }
 
 bool Assembler::evaluate_terms(const Situation& situation, Vec x, Vec v, Vec a, Vec r, const TangentRequest* request,
                                bool must_exchange) {
   const OpenVectors vectors(network_, parts_->outside, x, v, a, r);
-  const NodeData& data = vectors.data();
+  const NodeData& data = vectors.data;
   Evaluation evaluation{
       network_, data, situation, rule_, parts_->exchange, parts_->bodies(), parts_->bodies().carried()};
   evaluation.has_rates = parts_->has_rates;
@@ -172,17 +167,14 @@ void Assembler::force(double t, Vec x, Vec v, Vec force) {
 
 void Assembler::end_step(const Stage& stage, Vec x, Vec v) {
   parts_->prescribed.end_step(stage, parts_->outside.forces.data());
-  StepEnd end{stage, rule_.conserves(stage, network_.surroundings.fluid.has_value()), nullptr, nullptr};
-  check(VecGetArray(x, &end.x));
-  check(VecGetArray(v, &end.v));
+  const petsc::ChangedValues at_x(x), at_v(v);
+  const StepEnd end{stage, rule_.conserves(stage, network_.surroundings.fluid.has_value()), at_x, at_v};
   for_each_term(parts_->terms, [&](auto& term) { term.end_step(end); });
-  check(VecRestoreArray(v, &end.v));
-  check(VecRestoreArray(x, &end.x));
 }
 
 const LocalState& Assembler::observe(double t, Vec x, Vec v, Vec a, bool is_calm) {
   const OpenVectors vectors(network_, parts_->outside, x, v, a, nullptr);
-  const NodeData& data = vectors.data();
+  const NodeData& data = vectors.data;
   const Situation situation{.stage = {t, 0, 0}};
   evaluated_ = {};
   parts_->exchange.begin(data.x, data.v, data.a, data.outside, data.ghost_rotations);
@@ -190,7 +182,15 @@ const LocalState& Assembler::observe(double t, Vec x, Vec v, Vec a, bool is_calm
       network_, data, situation, rule_, parts_->exchange, parts_->bodies(), parts_->bodies().carried()};
   evaluation.is_exchanging = true;
   evaluation.complete();
-  copy_state(network_, t, AnyNodes{data}, state_);
+  const AnyNodes nodes{data};
+  for (const auto& [node, motion] : network_.prescribed) nodes.outside(node) = motion.at(t);
+  for (auto* field : {&state_.x, &state_.v, &state_.a}) field->resize(3 * at(network_.nodes));
+  for (LocalNode node(0); node.value() < network_.nodes; ++node) {
+    std::copy_n(nodes.x(node).data(), 3, state_.x.data() + 3 * at(node));
+    std::copy_n(nodes.v(node).data(), 3, state_.v.data() + 3 * at(node));
+    std::copy_n(nodes.a(node).data(), 3, state_.a.data() + 3 * at(node));
+  }
+  state_.t = t;
   state_.is_calm = is_calm;
   state_.bodies = parts_->bodies().states(data);
   return state_;
@@ -221,7 +221,12 @@ ForceScales Assembler::force_scales() {
   return ForceScales::of(sums, communicator_);
 }
 
-int Assembler::nearly_singular_body(Vec x) const { return find_nearly_singular(network_, x, communicator_); }
+int Assembler::nearly_singular_body(Vec x) const {
+  if (!network_.has_euler_bodies) return -1;
+  int found = parts_->bodies().nearly_singular(OpenVectors(network_, parts_->outside, x, x, nullptr, nullptr).data);
+  MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_INT, MPI_MAX, communicator_);
+  return found;
+}
 
 int Assembler::outside_body() const { return parts_->bodies().outside(); }
 

@@ -26,7 +26,7 @@ struct BedKernel {
     const partition::LocalElement& e = network.elements[element];
     const network::CableOnBed& cable = network.surroundings.on_bed[at(e.material)];
     const double smoothing = softness * cable.smoothing;
-    const Eigen::Map<const Vector3> x(nodes.x(node)), v(nodes.v(node));
+    const ConstVector x = nodes.x(node), v = nodes.v(node);
     if (x.z() - 0.5 * dt * std::abs(v.z()) > bed.level + smoothing) return false;
     const environment::BedForce push =
         environment::bed_force<with_tangent>(bed, 0.5 * cable.diameter * e.length, smoothing, dt, x, v);
@@ -52,9 +52,8 @@ void BedTerm::add(Evaluation& evaluation) {
 void BedTerm::add_scales(ForceSums& sums) const {
   const auto& bed = network_.surroundings.bed;
   if (!bed) return;
-  for (const partition::LocalElement& e : own_elements()) {
+  for (const partition::LocalElement& e : own_elements())
     sums.bed += square(bed->level * bed->stiffness * network_.surroundings.on_bed[at(e.material)].diameter * e.length);
-  }
 }
 
 Vector3 BedTerm::end_force(const LocalState& state, int element, std::size_t end) const {

@@ -5,12 +5,9 @@
 #include "cablenet/petsc/phase.hpp"
 
 namespace cablenet::system {
-namespace {
 
-using Const3 = Eigen::Map<const Vector3>;
-using Map3 = Eigen::Map<Vector3>;
-
-}   // namespace
+/// cos(pitch) one degree from the vertical: before a step leaves the domain of Euler angles.
+constexpr double warning_cosine = 0.0175;
 
 BodyTerm::BodyTerm(const partition::LocalNetwork& network)
     : Term(network), starts_(network.bodies.size()), forces_(network.bodies.size()), carried_(network) {
@@ -39,19 +36,17 @@ std::vector<BodyState> BodyTerm::states(const NodeData& data) const {
   return states;
 }
 
-void BodyTerm::begin_step(Evaluation& evaluation) {
-  const NodeData& data = evaluation.data;
+void BodyTerm::start_step(const NodeData& data) {
   const AnyNodes nodes{data};
   for (std::size_t b = 0; b < starts_.size(); ++b) {
     const partition::LocalBody& body = network_.bodies[b];
     const bodies::RotationState state = rotation(static_cast<int>(b), data);
     starts_[b] = bodies::start_of(body.properties, state.y, state.dy);
     const Vector3 w = starts_[b].w;
-    for (int k = body.first_carried; k < body.first_carried + body.carried; ++k) {
-      const auto& [node, index, r] = network_.carried[at(k)];
+    for (const auto& [node, index, r] : carried_by(body)) {
       NodeMotion& here = nodes.outside(node);
-      Map3(here.x) = Const3(nodes.x(body.node)) + starts_[b].R * r;
-      Map3(here.v) = Const3(nodes.v(body.node)) + starts_[b].R * w.cross(r);
+      here.x = nodes.x(body.node) + starts_[b].R * r;
+      here.v = nodes.v(body.node) + starts_[b].R * w.cross(r);
     }
   }
 }
@@ -81,15 +76,14 @@ void BodyTerm::carry_body(int b, const Evaluation& evaluation, const bodies::Ste
   const bool differentiates = evaluation.has_tangent && unknowns(b) > 0;
   bodies::evaluate(body.properties, starts_[at(b)], rule, state, differentiates ? &evaluation.target.shift : nullptr,
                    evaluation.has_rates, motion, forces_[at(b)]);
-  for (int k = body.first_carried; k < body.first_carried + body.carried; ++k) {
-    const auto& [node, index, r] = network_.carried[at(k)];
+  for (const auto& [node, index, r] : carried_by(body)) {
     NodeMotion& here = nodes.outside(node);
-    Map3(here.x) = Const3(nodes.x(body.node)) + motion.position * r;
-    Map3(here.v) = Const3(nodes.v(body.node)) + motion.velocity * r;
-    if (data.a != nullptr) Map3(here.a) = Const3(nodes.a(body.node)) + motion.acceleration * r;
-    Map3(nodes.outside_r(node)).setZero();
+    here.x = nodes.x(body.node) + motion.position * r;
+    here.v = nodes.v(body.node) + motion.velocity * r;
+    if (data.a != nullptr) here.a = nodes.a(body.node) + motion.acceleration * r;
+    nodes.r(node).setZero();
     if (evaluation.has_tangent)
-      bodies::differentiate(motion, forces_[at(b)], r, evaluation.has_rates, carried_.tangents[at(k)]);
+      bodies::differentiate(motion, forces_[at(b)], r, evaluation.has_rates, *carried_.tangent(node));
   }
 }
 
@@ -102,11 +96,9 @@ void BodyTerm::clear_blocks(const TangentTarget& target) const {
 }
 
 bodies::CarriedForces BodyTerm::collect(int b, const NodeData& data) const {
-  const partition::LocalBody& body = network_.bodies[at(b)];
   bodies::CarriedForces sum;
-  for (int k = body.first_carried; k < body.first_carried + body.carried; ++k) {
-    const auto& [node, index, r] = network_.carried[at(k)];
-    const Const3 force(AnyNodes{data}.outside_r(node));
+  for (const auto& [node, index, r] : carried_by(network_.bodies[at(b)])) {
+    const ConstVector force(AnyNodes{data}.outside_r(node));
     sum.force += force;
     sum.moments += force * r.transpose();
   }
@@ -122,10 +114,10 @@ void BodyTerm::add(Evaluation& evaluation) {
     const bodies::CarriedForces sum = collect(b, data);
     const Vector3 torque = bodies::torque_of(forces.lever, sum.moments);
     if (evaluation.has_residual) {
-      double* const r = AnyNodes{data}.r(body.node);
-      Map3(r) += sum.force;
+      auto r = AnyNodes{data}.r(body.node);
+      r += sum.force;
       const bodies::Vector4 rows = bodies::attitude_forces(forces, torque);
-      for (int k = 0; k < unknowns(b); ++k) r[3 + k] += rows(k);
+      for (int k = 0; k < unknowns(b); ++k) r.data()[3 + k] += rows(k);
     }
     if (!evaluation.has_tangent) continue;
     if (steadiness > 0)
@@ -139,10 +131,8 @@ void BodyTerm::add(Evaluation& evaluation) {
 double BodyTerm::largest_torque(int b, const NodeData& data) const {
   const partition::LocalBody& body = network_.bodies[at(b)];
   double torque = body.properties.torque.norm();
-  for (int k = body.first_carried; k < body.first_carried + body.carried; ++k) {
-    const auto& [node, index, r] = network_.carried[at(k)];
-    torque += Const3(AnyNodes{data}.outside_r(node)).norm() * r.norm();
-  }
+  for (const auto& [node, index, r] : carried_by(body))
+    torque += ConstVector(AnyNodes{data}.outside_r(node)).norm() * r.norm();
   return torque;
 }
 
@@ -155,18 +145,31 @@ void BodyTerm::add_block(int b, const TangentTarget& target) {
   carried_.blocks[at(b)].setZero();
 }
 
-void BodyTerm::end_step(const StepEnd& end) {
+void BodyTerm::put(int body, const bodies::RotationState& state, double* x, double* v) const {
+  const int first = network_.begin[network_.bodies[at(body)].node].value() + 3;
+  std::copy_n(state.y.data(), unknowns(body), x + first);
+  std::copy_n(state.dy.data(), unknowns(body), v + first);
+}
+
+int BodyTerm::nearly_singular(const NodeData& data) const {
+  int found = -1;
   for (int b = 0; b < network_.own_bodies; ++b) {
     const partition::LocalBody& body = network_.bodies[at(b)];
-    const int first = network_.begin[body.node].value() + 3, n = unknowns(b);
-    if (n == 0) continue;
-    bodies::RotationState state;
-    std::copy_n(end.x + first, n, state.y.data());
-    std::copy_n(end.v + first, n, state.dy.data());
+    if (bodies::distance_from_singular(body.properties.rotation, rotation(b, data).y) < warning_cosine)
+      found = body.body;
+  }
+  return found;
+}
+
+void BodyTerm::end_step(const StepEnd& end) {
+  for (int b = 0; b < network_.own_bodies; ++b) {
+    if (unknowns(b) == 0) continue;
+    const partition::LocalBody& body = network_.bodies[at(b)];
+    const NodeData data{network_.owned, network_.begin.data(), end.x, end.v};
+    bodies::RotationState state = rotation(b, data);
     const Vector3 w =
         bodies::end_velocity(body.properties, starts_[at(b)], end.stage.dt, end.conserves, body.carried == 0, state);
-    std::copy_n(state.y.data(), n, end.x + first);
-    std::copy_n(state.dy.data(), n, end.v + first);
+    put(b, state, end.x, end.v);
     work_ += 0.5 * end.stage.dt * body.properties.torque.dot(starts_[at(b)].w + w);
   }
 }

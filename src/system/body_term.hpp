@@ -16,6 +16,8 @@ public:
 
   /// Clears the bodies' own blocks of the matrix, before anything is added to them.
   void clear_blocks(const TangentTarget& target) const;
+  /// Keeps the attitudes of a step's start, and places the carried nodes, which the other terms look at.
+  void start_step(const NodeData& data);
   /// Places the carried nodes at the stage and clears their forces.
   void carry(Evaluation& evaluation);
   CarriedNodes& carried() { return carried_; }
@@ -23,13 +25,16 @@ public:
   int unknowns(int body) const { return bodies::rotation_unknowns(network_.bodies[at(body)].properties.rotation); }
   /// Index into Network::bodies of one that left its domain in the last evaluation; -1: none.
   int outside() const { return outside_; }
+  /// Index into Network::bodies of one whose Euler angles are singular within a degree of pitch; -1: none.
+  int nearly_singular(const NodeData& data) const;
+  /// Writes a body's attitude and its rate to the vectors' values.
+  void put(int body, const bodies::RotationState& state, double* x, double* v) const;
   /// Attitudes and angular velocities of all bodies here.
   std::vector<BodyState> states(const NodeData& data) const;
 
   /// Bodies with an attitude have blocks larger than 3x3 somewhere.
   bool is_symmetric(const ForceRule&) const { return network_.blocks.uniform(); }
   void couplings(BlockPattern& pattern) { slots_ = pattern.own(network_.bodies); }
-  void begin_step(Evaluation& evaluation);
   void add(Evaluation& evaluation);
   void end_step(const StepEnd& end);
   void add_energy(const LocalState& state, Energies& sum) const;
@@ -37,6 +42,9 @@ public:
   void archive(Archive& archive) { archive.item("work of torques", work_); }
 
 private:
+  std::span<const partition::LocalCarried> carried_by(const partition::LocalBody& body) const {
+    return {network_.carried.data() + body.first_carried, at(body.carried)};
+  }
   bodies::RotationState rotation(int body, const NodeData& data) const;
   void carry_body(int body, const Evaluation& evaluation, const bodies::StepRule& rule, bodies::StageMotion& motion);
   bodies::CarriedForces collect(int body, const NodeData& data) const;

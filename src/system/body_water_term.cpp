@@ -5,17 +5,14 @@ namespace cablenet::system {
 void BodyWaterTerm::add(Evaluation& evaluation) {
   if (!has_rates() || network_.own_bodies == 0) return;
   evaluation.complete();
-  const environment::Fluid& water = fluid(evaluation.situation.is_calm);
   const AnyNodes nodes{evaluation.data};
   for (int b = 0; b < network_.own_bodies; ++b) {
     const partition::LocalBody& body = network_.bodies[at(b)];
     const bool turns = evaluation.bodies.unknowns(b) > 0;
     const Matrix3 R = turns ? evaluation.bodies.forces(b).lever : Matrix3(body.properties.attitude.toRotationMatrix());
-    using Const3 = Eigen::Map<const Vector3>;
-    const bodies::PointMotion motion{Const3(nodes.x(body.node)), Const3(nodes.v(body.node)),
-                                     Const3(nodes.a(body.node))};
-    const bodies::BodyLoad load = bodies::body_load(*body.water, water, evaluation.time(), R, motion);
-    if (evaluation.has_residual) Eigen::Map<Vector3>(nodes.r(body.node)) -= load.force;
+    const bodies::BodyLoad load = bodies::body_load(*body.water, fluid(evaluation.situation.is_calm), evaluation.time(),
+                                                    R, {nodes.x(body.node), nodes.v(body.node), nodes.a(body.node)});
+    if (evaluation.has_residual) nodes.r(body.node) -= load.force;
     if (evaluation.has_tangent) add_slopes(b, load, R, evaluation);
   }
 }

@@ -60,8 +60,8 @@ struct CableKernel {
   /// a + beta v of a node; the weight joins in as an acceleration.
   template <class Nodes, class Key>
   Vector3 inertial(const elements::CableMaterial& material, const Nodes& nodes, Key node) const {
-    Vector3 q = Eigen::Map<const Vector3>(nodes.a(node));
-    if constexpr (Law::general) q += material.mass_damping * Eigen::Map<const Vector3>(nodes.v(node));
+    Vector3 q = nodes.a(node);
+    if constexpr (Law::general) q += material.mass_damping * nodes.v(node);
     q.z() += network.gravity;
     return q;
   }
@@ -71,8 +71,8 @@ struct CableKernel {
                 Response& out) const {
     const elements::CableMaterial& material = network.materials[at(e.material)];
     const auto n1 = nodes.key(e, 0), n2 = nodes.key(e, 1);
-    elements::ElementStage stage{material, e.length, difference(nodes.x(n2), nodes.x(n1)), Vector3::Zero(), shift.v};
-    if constexpr (Law::general) stage.w = difference(nodes.v(n2), nodes.v(n1));
+    elements::ElementStage stage{material, e.length, nodes.x(n2) - nodes.x(n1), Vector3::Zero(), shift.v};
+    if constexpr (Law::general) stage.w = nodes.v(n2) - nodes.v(n1);
     Vector3 f;
     if (!law.template evaluate<with_tangent>(starts[i], stage, f, out.K)) return false;
     if constexpr (with_residual) {
@@ -113,13 +113,13 @@ void CableTerm::begin_step(Evaluation& evaluation) {
     if constexpr (!std::is_same_v<typename Law::Start, elements::NoStart>) {
       auto& starts = this->starts<Law>();
       const auto visit = [&](Range range, const auto& nodes) {
-        for_each_element(network_, range, [&](std::size_t i, const partition::LocalElement& e) {
+        for (std::size_t i = at(range.first); i < at(range.last); ++i) {
+          const partition::LocalElement& e = network_.elements[i];
           const auto n1 = nodes.key(e, 0), n2 = nodes.key(e, 1);
           Vector3 w = Vector3::Zero();
-          if constexpr (Law::general) w = difference(nodes.v(n2), nodes.v(n1));
-          starts[i] = Law::start(network_.materials[at(e.material)], e.length, difference(nodes.x(n2), nodes.x(n1)), w);
-          return true;
-        });
+          if constexpr (Law::general) w = nodes.v(n2) - nodes.v(n1);
+          starts[i] = Law::start(network_.materials[at(e.material)], e.length, nodes.x(n2) - nodes.x(n1), w);
+        }
       };
       visit(Range{0, network_.inner_elements}, InnerNodes{evaluation.data});
       visit(Range{network_.inner_elements, static_cast<int>(network_.elements.size())}, AnyNodes{evaluation.data});

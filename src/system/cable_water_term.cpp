@@ -6,15 +6,6 @@
 namespace cablenet::system {
 namespace {
 
-template <class Nodes>
-elements::EndMotion end_motion(const Nodes& nodes, const partition::LocalElement& e) {
-  using Const3 = Eigen::Map<const Vector3>;
-  const auto n1 = nodes.key(e, 0), n2 = nodes.key(e, 1);
-  return {{Const3(nodes.x(n1)), Const3(nodes.x(n2))},
-          {Const3(nodes.v(n1)), Const3(nodes.v(n2))},
-          {Const3(nodes.a(n1)), Const3(nodes.a(n2))}};
-}
-
 template <class Water>
 struct WaterKernel {
   using Response = PairResponse;
@@ -28,8 +19,10 @@ struct WaterKernel {
   bool evaluate(std::size_t, const partition::LocalElement& e, const Nodes& nodes, const Shift& shift,
                 Response& out) const {
     const elements::CableInWater& cable = network.surroundings.in_water[at(e.material)];
-    const elements::EndLoads loads =
-        elements::water_loads<with_tangent>(cable, e.length, end_motion(nodes, e), water, shift);
+    const auto n1 = nodes.key(e, 0), n2 = nodes.key(e, 1);
+    const elements::EndMotion motion{
+        {nodes.x(n1), nodes.x(n2)}, {nodes.v(n1), nodes.v(n2)}, {nodes.a(n1), nodes.a(n2)}};
+    const elements::EndLoads loads = elements::water_loads<with_tangent>(cable, e.length, motion, water, shift);
     for (std::size_t i = 0; i < 2; ++i) {
       out.on[i] = -loads.on[i];
       if constexpr (with_tangent)

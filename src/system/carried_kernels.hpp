@@ -10,12 +10,12 @@ bool add_carried_pair(const CarriedScatter& scatter, const Kernel& kernel, std::
                       const PairSlots& slots, const Shift& shift) {
   if constexpr (with_tangent) {
     typename Kernel::Apart by;
-    if (!by.fill(kernel, i, item, scatter.nodes())) return false;
+    if (!by.fill(kernel, i, item, scatter.nodes)) return false;
     for (std::size_t k = 0; k < 2; ++k) scatter.add_force(item.node[k], by.on(k));
     scatter.template add_pair<Kernel::owns_slots>(item.node, slots, by, shift);
   } else {
     typename Kernel::Response response;
-    if (!kernel.template evaluate<true, false>(i, item, scatter.nodes(), shift, response)) return false;
+    if (!kernel.template evaluate<true, false>(i, item, scatter.nodes, shift, response)) return false;
     for (std::size_t k = 0; k < 2; ++k) scatter.add_force(item.node[k], response.on[k]);
   }
   return true;
@@ -25,7 +25,7 @@ template <bool with_tangent, class Kernel>
 void add_carried_node(const CarriedScatter& scatter, const Kernel& kernel, std::size_t i, LocalNode node,
                       const Slot& slot, const Shift& shift) {
   NodeResponse by;
-  if (!kernel.template evaluate<with_tangent>(i, node, scatter.nodes(), by)) return;
+  if (!kernel.template evaluate<with_tangent>(i, node, scatter.nodes, by)) return;
   scatter.add_force(node, by.on);
   if constexpr (with_tangent) scatter.template add_block<Kernel::owns_slots>(node, node, slot, by.x, by.v, by.a, shift);
 }

@@ -12,13 +12,15 @@ struct CarriedNodes {
   explicit CarriedNodes(const partition::LocalNetwork& here)
       : network(here), tangents(here.carried.size()), blocks(at(here.own_bodies), bodies::BodyBlock::Zero()) {}
 
-  const bodies::CarriedTangent& tangent(LocalNode node) const {
-    return tangents[at(node.value() - network.nodes + static_cast<int>(tangents.size()))];
+  /// nullptr for nodes that no body carries.
+  bodies::CarriedTangent* tangent(LocalNode node) {
+    return network.is_carried(node) ? &tangents[tangents.size() - at(network.nodes - node.value())] : nullptr;
   }
-  /// Of the body that carries the node; nullptr for another rank's body.
-  bodies::BodyBlock* block(LocalNode node) {
-    const int body = network.carried_at(node).body;
-    return body < network.own_bodies ? &blocks[at(body)] : nullptr;
+  /// Of this rank's body that carries both; nullptr where there is none.
+  bodies::BodyBlock* shared_block(LocalNode one, LocalNode other) {
+    if (!network.is_carried(one) || !network.is_carried(other)) return nullptr;
+    const int body = network.carried_at(one).body;
+    return body == network.carried_at(other).body && body < network.own_bodies ? &blocks[at(body)] : nullptr;
   }
 
   const partition::LocalNetwork& network;

@@ -11,17 +11,16 @@ namespace cablenet::system {
 class CarriedScatter {
 public:
   explicit CarriedScatter(const Evaluation& evaluation)
-      : network_(evaluation.network),
+      : nodes{evaluation.data},
         carried_(evaluation.carried),
         target_(evaluation.target),
-        nodes_{evaluation.data},
         has_residual_(evaluation.has_residual) {}
 
-  const AnyNodes& nodes() const { return nodes_; }
+  const AnyNodes nodes;
 
   /// A body's tangent needs the forces on the nodes that it carries, even where no residual is asked for.
   void add_force(LocalNode node, const Vector3& force) const {
-    if (has_residual_ || network_.is_carried(node)) Eigen::Map<Vector3>(nodes_.r(node)) += force;
+    if (has_residual_ || carried_.network.is_carried(node)) nodes.r(node) += force;
   }
 
   template <bool owns_slots, class Apart>
@@ -35,18 +34,18 @@ public:
   template <bool owns_slot, class X, class V, class A>
   void add_block(LocalNode row, LocalNode column, Slot slot, const X& x, const V& v, const A& a,
                  const Shift& shift) const {
-    bodies::BodyBlock* const own = shared_block(row, column);
+    bodies::BodyBlock* const own = carried_.shared_block(row, column);
     if (slot.absent && own == nullptr) return;
     slot.add = !owns_slot || slot.add;
     Matrix3 by_position = Matrix3::Zero();
     add_scaled(by_position, shift.x, x);
     add_scaled(by_position, shift.v, v);
     add_scaled(by_position, shift.a, a);
-    const bodies::CarriedTangent* const turning = carried(column);
+    const bodies::CarriedTangent* const turning = carried_.tangent(column);
     if (turning == nullptr) {
       bodies::RowMajor<3, 4> part = bodies::RowMajor<3, 4>::Zero();
       part.leftCols<3>() = by_position;
-      return put(own, slot, carried(row), part, 3);
+      return put(own, slot, carried_.tangent(row), part, 3);
     }
     bodies::RowMajor<3, 4> by_attitude = bodies::RowMajor<3, 4>::Zero();
     add_product(by_attitude, x, turning->x);
@@ -55,20 +54,10 @@ public:
     bodies::RowMajor<3, 8> part = bodies::RowMajor<3, 8>::Zero();
     part.leftCols<3>() = by_position;
     part.middleCols<4>(3) = by_attitude;
-    put(own, slot, carried(row), part, 3 + turning->unknowns);
+    put(own, slot, carried_.tangent(row), part, 3 + turning->unknowns);
   }
 
 private:
-  /// nullptr for nodes that no body carries.
-  const bodies::CarriedTangent* carried(LocalNode node) const {
-    return network_.is_carried(node) ? &carried_.tangent(node) : nullptr;
-  }
-  /// Of the body that carries both.
-  bodies::BodyBlock* shared_block(LocalNode one, LocalNode other) const {
-    if (!network_.is_carried(one) || !network_.is_carried(other)) return nullptr;
-    return network_.carried_at(one).body == network_.carried_at(other).body ? carried_.block(one) : nullptr;
-  }
-
   /// Rows of the position, and those of the attitude where there is one.
   template <int width>
   void put(bodies::BodyBlock* own, const Slot& slot, const bodies::CarriedTangent* rows,
@@ -106,10 +95,8 @@ private:
       for (int c = 0; c < count; ++c) to[c] = from[c];
   }
 
-  const partition::LocalNetwork& network_;
   CarriedNodes& carried_;
   const TangentTarget& target_;
-  const AnyNodes nodes_;
   bool has_residual_;
 };
 

@@ -6,34 +6,22 @@
 
 namespace cablenet::system {
 
-using petsc::check;
-
 OutsideNodes::OutsideNodes(const partition::LocalNetwork& network)
-    : motion(at(network.nodes - network.owned)),
-      forces(3 * at(network.nodes - network.owned)),
+    : motion(at(network.nodes - network.owned), {Vector3::Zero(), Vector3::Zero(), Vector3::Zero()}),
+      forces(3 * motion.size()),
       ghost_rotations(at(network.ghosts)) {}
 
-OpenVectors::OpenVectors(const partition::LocalNetwork& network, OutsideNodes& outside, Vec x, Vec v, Vec a, Vec r)
-    : x_(x), v_(v), a_(a), r_(r) {
-  data_.owned = network.owned;
-  data_.begin = network.begin.data();
-  data_.outside = outside.motion.data();
-  data_.outside_r = outside.forces.data();
-  data_.ghost_rotations = outside.ghost_rotations.data();
-  check(VecGetArrayRead(x_, &data_.x));
-  check(VecGetArrayRead(v_, &data_.v));
-  if (a_ != nullptr) check(VecGetArrayRead(a_, &data_.a));
-  if (r_ == nullptr) return;
-  check(VecGetArrayWrite(r_, &data_.r));
-  std::fill_n(data_.r, network.unknowns(), 0.0);
+OpenVectors::OpenVectors(const partition::LocalNetwork& network, OutsideNodes& outside, Vec in_x, Vec in_v, Vec in_a,
+                         Vec in_r)
+    : x(in_x),
+      v(in_v),
+      a(in_a),
+      r(in_r),
+      data{network.owned,         network.begin.data(),          x, v, a, r, outside.motion.data(),
+           outside.forces.data(), outside.ghost_rotations.data()} {
+  if (data.r == nullptr) return;
+  std::fill_n(data.r, network.unknowns(), 0.0);
   std::fill(outside.forces.begin(), outside.forces.end(), 0.0);
-}
-
-OpenVectors::~OpenVectors() {
-  (void)VecRestoreArrayRead(x_, &data_.x);
-  (void)VecRestoreArrayRead(v_, &data_.v);
-  if (a_ != nullptr) (void)VecRestoreArrayRead(a_, &data_.a);
-  if (r_ != nullptr) (void)VecRestoreArrayWrite(r_, &data_.r);
 }
 
 void Evaluation::complete() {

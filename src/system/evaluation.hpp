@@ -1,8 +1,7 @@
 #pragma once
-#include <petscvec.h>
-
 #include <vector>
 
+#include "cablenet/petsc/values.hpp"
 #include "cablenet/system/force_rule.hpp"
 #include "cablenet/system/situation.hpp"
 #include "cablenet/system/slot.hpp"
@@ -23,18 +22,12 @@ struct OutsideNodes {
 };
 
 /// The solver's vectors, open while this lives.  The residual's values are cleared.
-class OpenVectors {
-public:
-  OpenVectors(const partition::LocalNetwork& network, OutsideNodes& outside, Vec x, Vec v, Vec a, Vec r);
-  ~OpenVectors();
-  OpenVectors(const OpenVectors&) = delete;
-  OpenVectors& operator=(const OpenVectors&) = delete;
+struct OpenVectors {
+  OpenVectors(const partition::LocalNetwork& network, OutsideNodes& outside, Vec in_x, Vec in_v, Vec in_a, Vec in_r);
 
-  const NodeData& data() const { return data_; }
-
-private:
-  NodeData data_{};
-  Vec x_, v_, a_, r_;
+  const petsc::ReadValues x, v, a;
+  const petsc::WrittenValues r;
+  const NodeData data;
 };
 
 /// Where blocks of a tangent go.

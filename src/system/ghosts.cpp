@@ -45,9 +45,9 @@ void GhostExchange::begin(const double* x, const double* v, const double* a, Nod
   if (alone_) return;
   const petsc::Timer timer(petsc::Phase::exchange);
   for (std::size_t i = 0; i < sent_nodes_.size(); ++i) {
-    copy_or_zero(nodes_.sent[i].x, x, sent_nodes_[i], 3);
-    copy_or_zero(nodes_.sent[i].v, v, sent_nodes_[i], 3);
-    copy_or_zero(nodes_.sent[i].a, a, sent_nodes_[i], 3);
+    copy_or_zero(nodes_.sent[i].x.data(), x, sent_nodes_[i], 3);
+    copy_or_zero(nodes_.sent[i].v.data(), v, sent_nodes_[i], 3);
+    copy_or_zero(nodes_.sent[i].a.data(), a, sent_nodes_[i], 3);
   }
   nodes_.begin(ghosts);
   if (!with_bodies_) return;

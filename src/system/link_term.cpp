@@ -22,7 +22,7 @@ void LinkTerm::add(Evaluation& evaluation) {
   const CarriedScatter scatter(evaluation);
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     const auto& [node, stiffness] = network_.links[i];
-    const Vector3 force = stiffness * difference(scatter.nodes().x(node[1]), scatter.nodes().x(node[0]));
+    const Vector3 force = stiffness * (scatter.nodes.x(node[1]) - scatter.nodes.x(node[0]));
     scatter.add_force(node[0], -force);
     scatter.add_force(node[1], force);
     if (evaluation.has_tangent) scatter.add_pair<true>(node, slots_[i], LinkSlopes{stiffness}, evaluation.target.shift);

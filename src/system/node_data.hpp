@@ -14,16 +14,14 @@ struct NodeData {
   const Unknown* begin;   ///< per owned node: its first unknown in the solver's vectors
   const double* x;
   const double* v;
-  const double* a;                          ///< null where no accelerations are given
-  double* r;                                ///< null where no residual is asked for
-  NodeMotion* outside;                      ///< motion of the nodes that are not owned
-  double* outside_r;                        ///< their forces
-  bodies::RotationState* ghost_rotations;   ///< of the ghosts that are bodies
+  const double* a = nullptr;                          ///< null where no accelerations are given
+  double* r = nullptr;                                ///< null where no residual is asked for
+  NodeMotion* outside = nullptr;                      ///< motion of the nodes that are not owned
+  double* outside_r = nullptr;                        ///< their forces
+  bodies::RotationState* ghost_rotations = nullptr;   ///< of the ghosts that are bodies
 };
 
-inline Vector3 difference(const double* to, const double* from) {
-  return {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
-}
+using ConstVector = Eigen::Map<const Vector3>;
 
 /// The nodes of elements between owned nodes, known by their first unknowns.
 struct InnerNodes {
@@ -31,10 +29,10 @@ struct InnerNodes {
   const NodeData& data;
 
   static Unknown key(const partition::LocalElement& e, std::size_t end) { return e.unknown[end]; }
-  const double* x(Unknown node) const { return data.x + node.value(); }
-  const double* v(Unknown node) const { return data.v + node.value(); }
-  const double* a(Unknown node) const { return data.a + node.value(); }
-  double* r(Unknown node) const { return data.r + node.value(); }
+  ConstVector x(Unknown node) const { return ConstVector(data.x + node.value()); }
+  ConstVector v(Unknown node) const { return ConstVector(data.v + node.value()); }
+  ConstVector a(Unknown node) const { return ConstVector(data.a + node.value()); }
+  Eigen::Map<Vector3> r(Unknown node) const { return Eigen::Map<Vector3>(data.r + node.value()); }
 };
 
 /// Any nodes.
@@ -49,11 +47,16 @@ struct AnyNodes {
   bool is_owned(LocalNode node) const { return node.value() < data.owned; }
   int unknown(LocalNode node) const { return data.begin[node.value()].value(); }
   NodeMotion& outside(LocalNode node) const { return data.outside[node.value() - data.owned]; }
-  const double* x(LocalNode node) const { return is_owned(node) ? data.x + unknown(node) : outside(node).x; }
-  const double* v(LocalNode node) const { return is_owned(node) ? data.v + unknown(node) : outside(node).v; }
-  const double* a(LocalNode node) const { return is_owned(node) ? data.a + unknown(node) : outside(node).a; }
-  double* r(LocalNode node) const { return is_owned(node) ? data.r + unknown(node) : outside_r(node); }
+  ConstVector x(LocalNode node) const { return part(node, data.x, &NodeMotion::x); }
+  ConstVector v(LocalNode node) const { return part(node, data.v, &NodeMotion::v); }
+  ConstVector a(LocalNode node) const { return part(node, data.a, &NodeMotion::a); }
+  Eigen::Map<Vector3> r(LocalNode node) const {
+    return Eigen::Map<Vector3>(is_owned(node) ? data.r + unknown(node) : outside_r(node));
+  }
   double* outside_r(LocalNode node) const { return data.outside_r + 3 * std::ptrdiff_t{node.value() - data.owned}; }
+  ConstVector part(LocalNode node, const double* owned, Vector3 NodeMotion::*other) const {
+    return ConstVector(is_owned(node) ? owned + unknown(node) : (outside(node).*other).data());
+  }
 };
 
 /// Nodes of an observed state.
@@ -61,9 +64,9 @@ struct StateNodes {
   const LocalState& state;
 
   static LocalNode key(const partition::LocalElement& e, std::size_t end) { return e.node[end]; }
-  const double* x(LocalNode node) const { return state.x.data() + 3 * at(node); }
-  const double* v(LocalNode node) const { return state.v.data() + 3 * at(node); }
-  const double* a(LocalNode node) const { return state.a.data() + 3 * at(node); }
+  ConstVector x(LocalNode node) const { return state.position(node); }
+  ConstVector v(LocalNode node) const { return state.velocity(node); }
+  ConstVector a(LocalNode node) const { return state.acceleration(node); }
 };
 
 }   // namespace cablenet::system

@@ -8,14 +8,14 @@ PointForceTerm::PointForceTerm(const partition::LocalNetwork& network) : Term(ne
 }
 
 void PointForceTerm::begin_step(Evaluation& evaluation) {
-  for (ForcedPoint& point : points_) point.start = Eigen::Map<const Vector3>(AnyNodes{evaluation.data}.x(point.node));
+  for (ForcedPoint& point : points_) point.start = AnyNodes{evaluation.data}.x(point.node);
 }
 
 void PointForceTerm::add(Evaluation& evaluation) {
   const AnyNodes nodes{evaluation.data};
   for (ForcedPoint& point : points_) {
-    point.stage = Eigen::Map<const Vector3>(nodes.x(point.node));
-    if (evaluation.has_residual) Eigen::Map<Vector3>(nodes.r(point.node)) -= point.force.at(evaluation.load_time());
+    point.stage = nodes.x(point.node);
+    if (evaluation.has_residual) nodes.r(point.node) -= point.force.at(evaluation.load_time());
   }
 }
 

@@ -12,7 +12,7 @@ struct PointKernel {
   template <bool with_tangent, class Nodes, class Key>
   bool evaluate(std::size_t i, Key node, const Nodes& nodes, NodeResponse& out) const {
     const auto& load = network.loads[i];
-    out.on = load.mass * (Eigen::Map<const Vector3>(nodes.a(node)) + Vector3(0, 0, network.gravity)) - load.force;
+    out.on = load.mass * (nodes.a(node) + Vector3(0, 0, network.gravity)) - load.force;
     if constexpr (with_tangent) {
       out.x.setZero();
       out.v.setZero();

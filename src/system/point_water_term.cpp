@@ -15,9 +15,8 @@ struct PointWaterKernel {
 
   template <bool with_tangent, class Nodes, class Key>
   bool evaluate(std::size_t i, Key node, const Nodes& nodes, NodeResponse& out) const {
-    using Const3 = Eigen::Map<const Vector3>;
-    const bodies::PointMotion motion{Const3(nodes.x(node)), Const3(nodes.v(node)), Const3(nodes.a(node))};
-    const bodies::PointLoad load = bodies::point_load(network.wet_points[i].water, fluid, t, network.gravity, motion);
+    const bodies::PointLoad load = bodies::point_load(network.wet_points[i].water, fluid, t, network.gravity,
+                                                      {nodes.x(node), nodes.v(node), nodes.a(node)});
     out = {-load.force, -load.by_x, -load.by_v, -load.by_a};
     return true;
   }

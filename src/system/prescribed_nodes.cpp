@@ -1,47 +1,28 @@
 #include "prescribed_nodes.hpp"
 
 namespace cablenet::system {
-namespace {
-
-Eigen::Map<Vector3> as_vector(double* values) { return Eigen::Map<Vector3>(values); }
-
-}   // namespace
-
-void PrescribedNodes::start(double t) {
-  if (t == start_time_) return;
-  start_time_ = t;
-  dt_ = -1;
-  for (std::size_t i = 0; i < steps_.size(); ++i) steps_[i].start = network_.prescribed[i].motion.at(t);
-}
-
-void PrescribedNodes::place_start(const Situation& situation, NodeMotion* outside) {
-  start(situation.stage.t);
-  for (std::size_t i = 0; i < steps_.size(); ++i) {
-    NodeMotion& here = outside[network_.prescribed[i].node.value() - network_.owned];
-    as_vector(here.x) = steps_[i].start.x;
-    as_vector(here.v) = situation.frame.value_or(steps_[i].start.v);
-    as_vector(here.a).setZero();
-  }
-}
 
 void PrescribedNodes::place(const Situation& situation, bool has_mean_acceleration, NodeMotion* outside) {
-  if (situation.frame) return place_start(situation, outside);
   const Stage& s = situation.stage;
-  start(s.t);
-  const bool is_new_end = s.dt != dt_;
-  dt_ = s.dt;
+  const bool is_new_start = s.t != start_time_, is_new_end = is_new_start || s.dt != dt_;
+  start_time_ = s.t;
+  dt_ = situation.frame ? -1 : s.dt;
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     const auto& [node, motion] = network_.prescribed[i];
-    if (is_new_end) steps_[i].end = motion.at(s.t + s.dt);
-    const auto& [x0, v0, a0] = steps_[i].start;
-    const auto& [x1, v1, a1] = steps_[i].end;
+    auto& [start, end, reaction] = steps_[i];
+    if (is_new_start) start = motion.at(s.t);
     NodeMotion& here = outside[node.value() - network_.owned];
-    as_vector(here.x) = x0 + s.alpha_f * (x1 - x0);
-    as_vector(here.v) = v0 + s.alpha_f * (v1 - v0);
+    if (situation.frame) {
+      here = {start.x, *situation.frame, Vector3::Zero()};
+      continue;
+    }
+    if (is_new_end) end = s.dt > 0 ? motion.at(s.t + s.dt) : start;
+    here.x = start.x + s.alpha_f * (end.x - start.x);
+    here.v = start.v + s.alpha_f * (end.v - start.v);
     // The free nodes' acceleration stands for the time t + alpha_f dt.  Where it is the step's mean, this one is, too:
     // the energy of fixed and uniformly moved points then balances exactly.
-    as_vector(here.a) =
-        has_mean_acceleration && s.dt > 0 ? Vector3((v1 - v0) / s.dt) : Vector3(a0 + s.alpha_f * (a1 - a0));
+    here.a = has_mean_acceleration && s.dt > 0 ? Vector3((end.v - start.v) / s.dt)
+                                               : Vector3(start.a + s.alpha_f * (end.a - start.a));
   }
 }
 

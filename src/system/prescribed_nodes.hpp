@@ -17,8 +17,6 @@ public:
   /// Puts the nodes where the situation has them.
   /// @param has_mean_acceleration  the free nodes' acceleration is the step's mean
   void place(const Situation& situation, bool has_mean_acceleration, NodeMotion* outside);
-  /// Puts the nodes where they are at the step's start.
-  void place_start(const Situation& situation, NodeMotion* outside);
   /// Adds the work of the accepted step, of which these were the last forces on the nodes that are not owned.
   void end_step(const Stage& stage, const double* outside_forces);
   double work() const { return work_; }   ///< since the start [J]
@@ -30,8 +28,6 @@ private:
     scene::Kinematics start, end;
     Vector3 previous_reaction = Vector3::Zero();
   };
-
-  void start(double t);
 
   const partition::LocalNetwork& network_;
   std::vector<Step> steps_;

@@ -7,12 +7,8 @@
 /// Brings the motion of other ranks' nodes and bodies here.  Tests: tests/parallel/assembler_test.cpp
 namespace cablenet::system {
 
-/// Position, velocity, acceleration of a node that this rank does not own.
-struct NodeMotion {
-  double x[3];   ///< [m]
-  double v[3];   ///< [m/s]
-  double a[3];   ///< [m/s^2]
-};
+/// Of a node that this rank does not own.
+using NodeMotion = scene::Kinematics;
 
 /// Member functions are collective; between begin and end other work may be done.
 class GhostExchange {
