@@ -70,39 +70,31 @@ void put_blocks(const TangentTarget& target, const PairSlots& slots, const Respo
   put_block<Nodes, owns_slot>(target, slots[3], response.template slope<1, 1>());
 }
 
-/// What a kernel of two nodes does to nodes with unknowns of their own.
+/// What a kernel does to nodes with unknowns of their own.  BodyScatter does the same at those that bodies carry.
 template <bool with_residual, bool with_tangent, class Nodes, class Kernel>
-struct PairScatter {
+struct Scatter {
   const Kernel& kernel;
   Nodes nodes;
   const TangentTarget& target;
   const Shift shift;
 
-  /// @returns false where the kernel is not defined
+  /// A kernel of two nodes.  @returns false where it is not defined
   template <class Item>
-  [[gnu::flatten]] bool operator()(std::size_t i, const Item& item, const PairSlots& slots) const {
+  [[gnu::flatten]] bool pair(std::size_t i, const Item& item, const PairSlots& slots) const {
     typename Kernel::Response response;
     if (!kernel.template evaluate<with_residual, with_tangent>(i, item, nodes, shift, response)) return false;
     if constexpr (with_residual)
-      for (std::size_t k = 0; k < 2; ++k) Eigen::Map<Vector3>(nodes.r(nodes.key(item, k))) += response.on[k];
+      for (std::size_t k = 0; k < 2; ++k) nodes.r(nodes.key(item, k)) += response.on[k];
     if constexpr (with_tangent) put_blocks<Nodes, Kernel::owns_slots>(target, slots, response);
     return true;
   }
-};
 
-/// What a kernel of one node does to a node with unknowns of its own.  The kernel answers false where nothing acts.
-template <bool with_residual, bool with_tangent, class Nodes, class Kernel>
-struct NodeScatter {
-  const Kernel& kernel;
-  Nodes nodes;
-  const TangentTarget& target;
-  const Shift shift;
-
+  /// A kernel of one node, which answers false where nothing acts.
   template <class Key>
-  [[gnu::flatten]] void operator()(std::size_t i, Key node, const Slot& slot) const {
+  [[gnu::flatten]] void node(std::size_t i, Key key, const Slot& slot) const {
     NodeResponse response;
-    if (!kernel.template evaluate<with_tangent>(i, node, nodes, response)) return;
-    if constexpr (with_residual) Eigen::Map<Vector3>(nodes.r(node)) += response.on;
+    if (!kernel.template evaluate<with_tangent>(i, key, nodes, response)) return;
+    if constexpr (with_residual) nodes.r(key) += response.on;
     if constexpr (with_tangent) put_block<Nodes, Kernel::owns_slots>(target, slot, response.slope(shift));
   }
 };
