@@ -11,10 +11,10 @@ namespace {
 
 using petsc::check;
 
-/// TSALPHA2's estimate of the first acceleration doubled it before PETSc 3.22.
+/// Before PETSc 3.22 TSALPHA2's estimate of the first acceleration is twice what it should be.
 constexpr double start_factor = PETSC_VERSION_LT(3, 22, 0) ? 0.5 : 1.0;
 
-/// As many halvings bring an adaptive step below any that is of use.
+/// So many halvings bring an adaptive step below any that is of use.
 constexpr PetscInt most_rejections = 40;
 
 void archive_vector(Archive& archive, const char* name, Vec vector) {
@@ -225,7 +225,7 @@ bool AlphaStepper::accepts_error() {
   return accepts_(error_, step_.dt);
 }
 
-/// PETSc asks after each of its stages that Newton's method solved.
+/// PETSc calls this after each stage that Newton's method has solved.
 PetscErrorCode AlphaStepper::check_error(TSAdapt adapt, TS ts, PetscReal, Vec, PetscBool* accept) noexcept {
   PetscFunctionBeginUser;
   AlphaStepper* stepper = nullptr;

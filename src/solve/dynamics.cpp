@@ -9,10 +9,10 @@
 namespace cablenet::solve {
 namespace {
 
-/// Over the step that was asked for: where shrinking it ends.
+/// A run fails where its steps have shrunk to this part of the step that was asked for.
 constexpr double smallest_step = 1e-10;
 
-/// How often the largest coordinate, which rounding depends on, is looked up.
+/// After so many steps the largest coordinate, which rounding depends on, is looked up again.
 constexpr long steps_between_norms = 64;
 
 }   // namespace

@@ -9,7 +9,7 @@ namespace {
 
 using petsc::check;
 
-/// Larger than any residual.
+/// The size of a residual that is undefined, or where the tangent is singular: larger than any other.
 constexpr double unnatural = 1e300;
 
 }   // namespace
@@ -18,7 +18,7 @@ FailedPart worst_part(const system::Assembler& assembler, Vec residual, const Kn
   const auto& network = assembler.network();
   const double* values = nullptr;
   check(VecGetArrayRead(residual, &values));
-  // Bodies are counted downwards from -1.
+  // MPI_MAXLOC carries one number: that of an element, or -1 minus that of a body.
   struct {
     double size;
     int part;

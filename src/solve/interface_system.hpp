@@ -22,15 +22,15 @@ public:
   /// @param blocks  by solver number
   static elimination::BlockGraph block_graph(const partition::Interface& interface, const partition::Blocks& blocks);
 
-  /// Where a block of the matrix stands.
+  /// Where a block of the matrix stands in the sum.
   struct SummedBlock {
     std::size_t begin;
     int rows, columns;
   };
 
-  /// Starts a sum.  @param new_matrix  the matrix is summed too; else it is the last one
+  /// Starts a sum.  @param new_matrix  the matrix is summed, too; otherwise that of the last sum stays
   void clear(bool new_matrix);
-  /// Of block (row, column), for add().
+  /// Where block (row, column) stands, for add().
   SummedBlock block(InterfaceNode row, InterfaceNode column) const;
   /// block += values, by rows of `stride`, or their transpose.  @pre clear(true)
   void add(const SummedBlock& block, const double* values, std::size_t stride, bool transposed);

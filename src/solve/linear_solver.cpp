@@ -27,7 +27,7 @@ const char* prefix_of(KSP ksp) {
   return prefix;
 }
 
-/// A shell would be kept by -snes_mf, too, which means to do without.
+/// -snes_mf means to do without a preconditioner, but it would keep a PCSHELL.
 bool user_chose_preconditioner(const char* prefix) {
   return petsc::has_option("-pc_type", prefix) || petsc::has_option("-pc_factor_mat_solver_type", prefix) ||
          petsc::has_option("-snes_mf", prefix);

@@ -11,8 +11,10 @@ namespace {
 
 using petsc::check;
 
-/// When the true motion has the acceleration that is kept, counted from the step's end [s].  The method balances forces
-/// at the stage, where its acceleration is (1 - alpha_m) a0 + alpha_m a1.  A mean belongs to the step's middle.
+/// The time at which the true motion has the acceleration that is kept after the step, counted from the step's end [s].
+/// A mean belongs to the step's middle.  Otherwise it follows from the stage: there the method balances forces, so that
+/// the true motion has the acceleration (1 - alpha_m) a0 + alpha_m a1.
+/// @param before  likewise of a0, counted from the step's start [s]
 double acceleration_time(const AlphaStep& step, double before) {
   if (step.alternates()) return -step.dt / 2;
   return (step.alpha_f * step.dt - (1 - step.alpha_m) * before) / step.alpha_m - step.dt;
@@ -45,7 +47,7 @@ double largest_correction(const partition::LocalNetwork& network, const StepStar
 
 }   // namespace
 
-/// a1 - a0 is the correction of x0 + dt v0 + dt^2/2 a0 over beta dt^2; for a mean, 1/2 stands in for beta.
+/// a1 - a0 = (x1 - x0 - dt v0 - dt^2/2 a0) / (beta dt^2).  Where means are kept, 1/2 takes the place of beta.
 double LocalError::estimate(const AlphaStep& step, const partition::LocalNetwork& network, const StepStart& start,
                             Vec x1) {
   next_a_time_ = acceleration_time(step, a_time_);

@@ -12,7 +12,7 @@ namespace cablenet::solve {
 /// @pre the rows of a block have the same columns, and these come in whole blocks
 class MatrixBlocks {
 public:
-  /// @param blocks  of the whole matrix; must stay
+  /// @param blocks  of the whole matrix; must outlive this
   MatrixBlocks(Mat matrix, const partition::Blocks& blocks);
   ~MatrixBlocks();
   MatrixBlocks(const MatrixBlocks&) = delete;
@@ -20,7 +20,7 @@ public:
 
   int rows() const { return rows_; }
   SolverNumber first() const { return first_; }
-  /// Of a local row, and of all rows: its first unknown on this rank.
+  /// The first unknown of a local row.  That of row rows(), one past the last, is the number of unknowns on this rank.
   int begin(int row) const { return is_uniform() ? 3 * row : begin_[at(row)]; }
   bool is_own(SolverNumber column) const { return column >= first_ && column < first_ + rows_; }
   /// visit(column, source) for each block of a local row; the source is in values()'s arrays.

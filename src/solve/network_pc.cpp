@@ -24,7 +24,7 @@ PetscErrorCode NetworkPc::Impl::set_up(PC pc) {
     pivots_ = elimination_->factor(arrays);
   }
   is_singular_ = pivots_.singular >= 0;
-  // With an interface its sum tells.
+  // Where there is an interface, its sum tells all ranks of it.
   if (numbers_.empty() && ranks() > 1) MPI_Allreduce(MPI_IN_PLACE, &is_singular_, 1, MPI_INT, MPI_LOR, communicator_);
   blocks_.release(arrays);
   new_matrix_ = true;
@@ -81,7 +81,7 @@ PetscErrorCode NetworkPc::Impl::apply(PC pc, Vec b, Vec x) {
   PetscCall(VecGetArrayRead(b, &from));
   PetscCall(VecGetArrayWrite(x, &to));
   if (!solve(from, to)) {
-    // Some Krylov methods learn of a failure only by its norm.
+    // Some Krylov methods learn of a failure only by the norm of what they get.
     std::fill_n(to, blocks_.begin(blocks_.rows()), std::numeric_limits<double>::infinity());
     PetscCall(PCSetFailedReason(pc, PC_FACTOR_NUMERIC_ZEROPIVOT));
   }

@@ -10,8 +10,8 @@
 
 namespace cablenet::solve {
 
-/// Local blocks: the interior nodes, then the interface nodes at them (`kept_`).
-/// "Node" stands for a body as well.
+/// This rank's elimination numbers its blocks locally: first the interior nodes, then the interface nodes that are
+/// coupled to them (`kept_`).  "Node" stands for a body as well.
 class NetworkPc::Impl {
 public:
   Impl(const partition::LocalNetwork& network, Mat matrix);
@@ -32,7 +32,7 @@ private:
     MPI_Comm_size(communicator_, &count);
     return count;
   }
-  /// Of a local block.
+  /// The solver number of a local block.
   SolverNumber number(int local) const {
     return local < interior_ ? blocks_.first() + local : numbers_[at(kept_[at(local - interior_)])];
   }

@@ -20,11 +20,11 @@ constexpr double relative_force_tolerance = 1e-12;
 
 constexpr PetscInt most_iterations = 25;
 
-/// PETSc's word for: the tangent is not to be computed.
+/// What SNESSetLagJacobian calls never to compute a tangent.
 constexpr PetscInt never = -1;
 
-/// Options of SNES, without "-" and "snes_", that leave it to this class when a tangent is computed.  With any other
-/// one SNES computes it as it likes.
+/// Options of SNES, without "-" and "snes_", with which this class goes on making the tangents.  With any other option
+/// of SNES, SNES makes them.
 constexpr std::array harmless_options{"atol",
                                       "rtol",
                                       "stol",
@@ -140,7 +140,7 @@ void Newton::begin_step(double t, Vec x, bool measures) {
   t_ = t;
   PetscReal largest = largest_coordinate_;
   if (measures) check(VecNorm(x, NORM_INFINITY, &largest));
-  // Sines and cosines of small angles are rounded as those of large ones.
+  // Bodies have sines and cosines of angles.  However small an angle is, they are rounded as numbers of size 1.
   largest_coordinate_ = assembler_.network().blocks.uniform() ? largest : std::max<double>(largest, 1);
 }
 
@@ -172,7 +172,8 @@ void Newton::residual(Vec x, Vec v, Vec a, Vec r) {
   if (assembler_.residual(stage(), x, v, a, r, wants_tangent ? &request : nullptr)) return;
   outside_element_ = assembler_.coincident_element();
   outside_body_ = assembler_.outside_body();
-  // PETSc's own flag for this stays on one rank, and its line searches then leave the others waiting; a norm does not.
+  // PETSc's own flag for this stays on one rank, and its line searches then leave the others waiting.  An infinite
+  // residual reaches all ranks by its norm.
   PetscInt count = 0;
   PetscScalar* values = nullptr;
   check(VecGetLocalSize(r, &count));
@@ -247,7 +248,7 @@ FailedPart Newton::failed_part(int known_body) {
   return worst_part(assembler_, r, {singular_node_, outside_element_, known_body >= 0 ? known_body : outside_body_});
 }
 
-/// Not the tangent: the stepper restarts, and the solves of its start ask for new ones.
+/// The tangent is not saved: the stepper restarts, and the solves of its start ask for a new one.
 void Newton::archive(Archive& archive) {
   archive.item("newton.load", scales_.load);
   if (archive.is_loading()) scale_tolerance();

@@ -2,8 +2,9 @@
 
 namespace cablenet::solve {
 
-/// With new tangents the error falls quadratically, f1 = c f0^2.  With a kept tangent it falls linearly.  So c and the
-/// linear rate, which earlier corrections show, tell how much of a residual that is down to rounding is still error.
+/// A residual is the error that is left, and rounding.  With a new tangent the error falls quadratically, f1 = c f0^2.
+/// With a kept tangent it falls linearly, f1 = rate f0.  Earlier corrections show c and the rate.  These predict the
+/// error that is left where rounding hides it.
 bool NewtonConvergence::is_at_rounding(int iteration, double norm, double noise, bool is_retry, bool same_tangent) {
   const double previous = previous_norm_;
   previous_norm_ = norm;

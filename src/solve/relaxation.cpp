@@ -11,13 +11,13 @@ namespace {
 
 using petsc::check;
 
-/// Of the duration: the first step, and the time in which damping by mass takes a speed down to 1/e.
+/// Parts of the duration: the first step, and the time in which damping by mass takes a speed down to 1/e.
 constexpr double first_step = 1e-4, memory = 0.05;
 
-/// Where it does not settle in so many, it hardly does in more.
+/// A network that has not settled in so many steps hardly settles in more.
 constexpr long most_steps = 400;
 
-/// Of the network's extent: the local error of a step.
+/// The local error that a step may have, over the network's extent.
 constexpr double coarseness = 1e-3;
 
 partition::LocalNetwork in_frame(const system::Assembler& assembler, double t, const Vector3& velocity,

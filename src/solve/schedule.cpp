@@ -6,10 +6,10 @@
 namespace cablenet::solve {
 namespace {
 
-/// What the rounding of times may add up to, over a step.
+/// Times that differ by less than this part of a step are equal: their rounding adds up to less.
 constexpr double rounding = 1e-9;
 
-/// A step that grows at once fails at once again.
+/// So many steps are good before steps grow again.  If they grew at once, the next would fail at once.
 constexpr int steps_before_growth = 4;
 
 }   // namespace

@@ -11,15 +11,16 @@ namespace {
 
 using petsc::check;
 
-/// Of a component of the velocity: within this part the tow points agree, and in a first part of the window are steady.
-/// Surge on a tow agrees; a harmonic motion by itself changes more within a tenth of a run that has more than a period.
+/// By how much a component of the tow points' velocities may vary, over its middle: by `steadiness` in the first part
+/// of the window, or else by `agreement` in all of it.  A tow with surge is within the agreement.  A harmonic motion
+/// alone is not: it changes more within a tenth of a run that is longer than its period.
 constexpr double agreement = 0.25, steadiness = 1e-6, first_part = 0.2;
 
-/// A node's contact over an element, in stiffness at most, until the cables are as they are.  Soft enough that the
-/// number of iterations does not grow with the bed's stiffness or the number of elements.
+/// The most that the stiffness of a node's contact may be of an element's, until both are as they are.  So soft a bed
+/// keeps the number of iterations from growing with the bed's stiffness or with the number of elements.
 constexpr double bed_over_cables = 1e-4;
 
-/// Where the cables carry next to nothing.
+/// The most that a bed is softened.  It is reached where the cables carry next to nothing.
 constexpr double softest_bed = 1e12;
 
 /// At how many times within the window a motion is looked at.
@@ -35,7 +36,8 @@ void fill_velocity(const partition::LocalNetwork& network, const Vector3& veloci
   check(VecRestoreArray(v, &values));
 }
 
-/// Stiffness x diameter x L^2, the largest: of contact over that of an element, times EA.  [N]
+/// The largest stiffness x diameter x L^2.  It is the stiffness of a node's contact over the element's EA/L, times EA.
+/// [N]
 double measure_bed(const partition::LocalNetwork& network, MPI_Comm communicator) {
   double largest = 0;
   if (!network.surroundings.bed) return 0;
@@ -137,7 +139,7 @@ bool StaticForces::residual(const system::StaticRule& rule, Vec x, Vec r, system
   return in_domain;
 }
 
-/// The bed answers the other forces, enormously where the drawn shape lies in it.
+/// The bed is no load.  It answers the other forces, enormously where the drawn shape lies in it.
 void StaticForces::loads(Vec x, Vec r) {
   system::Situation now = situation(system::InternalForce::none, {});
   now.bed_softness = 0;
@@ -146,7 +148,7 @@ void StaticForces::loads(Vec x, Vec r) {
 
 TensionRange StaticForces::tensions(Vec x) {
   const system::LocalState& state = assembler_.observe(t_, x, v_, resting_);
-  double range[2] = {0, 0};   // what counts against least, and largest
+  double range[2] = {0, 0};   // the strongest compression, and the largest absolute tension
   const partition::LocalNetwork& network = assembler_.network();
   for (int i = 0; i < network.own_elements; ++i) {
     const partition::LocalElement& e = network.elements[at(i)];

@@ -18,20 +18,20 @@ using system::StaticRule;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Of the residual over the loads: where iterating stops, and what passes as equilibrium where rounding ends it before.
+/// The residual over the loads.  Iterating ends at `wanted`.  Where rounding ends it before, `enough` will do.
 constexpr double wanted = 1e-12, enough = 1e-9;
 
-/// Of rounding's own share.
+/// A residual of so many times what rounding makes alone passes as rounding.
 constexpr double rounding_margin = 16;
 
-/// How far away, over what is drawn, an equilibrium may be.  What falls without end comes to coordinates whose rounding
-/// hides the loads, and would pass.
+/// How far away an equilibrium may be, over the size of what is drawn.  What falls without end comes to coordinates
+/// whose rounding hides the loads.  It would pass as an equilibrium.
 constexpr double farthest = 1e6;
 
-/// Of the total load: the tension that a slack rope turns by.
+/// The least tension that the tangent has a rope turn with, over the total load.
 constexpr double slack_tension = 1e-4;
 
-/// Of a stage's residual over the loads before the next one.
+/// The residual over the loads at which the next stage begins: after strings, and after ropes.
 constexpr double rough = 0.05, passable = 1e-3;
 
 /// Strings that get less and less extensible: exponents, tensions over the total load, and iterations at most.
@@ -41,15 +41,17 @@ struct StringStage {
 };
 constexpr StringStage string_stages[] = {{1, 0.5, 4}, {3, 0.25, 20}, {9, 0.1, 20}, {27, 0.1, 20}};
 
-/// Share of a step below which the next is to be made in a shorter pseudo-time.
+/// Where less than this share of a correction is taken, the next one is made in a shorter pseudo-time.
 constexpr double short_step = 0.15;
 
-/// The first time to settle, over that of a fall through the network's extent; how often it is doubled.
+/// The first time that a network gets to settle, over that of a fall through its extent.
 constexpr double settling_time = 10, standard_gravity = 9.80665;
+/// How many times there are, each twice as long as the one before.
 constexpr int longer_times = 5;
+/// Larger nets are not left to settle: that would take many minutes, without a word.
 constexpr int most_unknowns_of_nets = 5000;
 
-/// How far an equilibrium may be from the drawn shape and still pass as near it, over the network's extent.
+/// An equilibrium is near the drawn shape if no coordinate is farther from it than this, over the network's extent.
 constexpr double near = 1e-3;
 
 constexpr double first_shift = 0.01, largest_shift = 1e6, shift_growth = 10;   // [1/s], [1/s], 1
@@ -112,13 +114,13 @@ bool Statics::solve() {
   return conclude(directly);
 }
 
-/// Where compression is carried there may be more equilibria than one, and that without any is the lowest.
+/// Where cables carry compression there may be more equilibria than one.  One without any compression is the lowest.
 bool Statics::is_taut() {
   const TensionRange tensions = forces_.tensions(x_);
   return tensions.least >= -enough * tensions.largest;
 }
 
-/// As frames of bars are, which are meant to stand as drawn.
+/// A frame of bars is: it is meant to stand as drawn, and its bars may carry compression.
 bool Statics::is_near_drawn() {
   PetscReal moved = 0;
   check(VecWAXPY(trial_, -1, drawn_, x_));
@@ -148,23 +150,23 @@ bool Statics::go_by_strings() {
   return settle(ropes(), {passable * reference(), 40, false}) && settle_as_they_are(200);
 }
 
-/// What pushes may stand on end, where nothing but rounding would topple it.
+/// What carries compression may stand on end, where nothing but rounding would topple it.  Negative pivots tell.
 bool Statics::settle_as_they_are(int iterations) {
   if (!settle({StaticRule::Kind::exact}, {0, iterations, true})) return false;
   count_negative_pivots();
   return negative_pivots_ == 0;
 }
 
-/// At the shape that is found: the last correction's tangent was that of the shape before, and a shape that is drawn in
-/// equilibrium takes no correction.
+/// Of a tangent at the shape that was found.  The last correction had that of the shape before it, and a shape that is
+/// drawn in equilibrium takes no correction.
 void Statics::count_negative_pivots() {
-  // What drifts freely has pivots that are rounding.
+  // Without a shift, the pivots of what drifts freely are rounding, of either sign.
   shift_ = first_shift;
   evaluate({StaticRule::Kind::exact}, x_, true);
   factor_and_solve();
 }
 
-/// As the last resort, lets the network settle; large nets would take many minutes, without a word.
+/// As the last resort, lets the network settle in time.
 bool Statics::go_in_time() {
   if (linear_.factors_are_dear() && assembler_.network().all_unknowns() > most_unknowns_of_nets) return false;
   const double extent = std::max(assembler_.network().extent, std::numeric_limits<double>::min());
@@ -184,7 +186,7 @@ double Statics::least_tension() const { return slack_tension * total_load_; }
 
 StaticRule Statics::ropes() const { return {StaticRule::Kind::ropes, 0, 0, least_tension()}; }
 
-/// Of forces on nodes: the loads, or what cables pull with where there are none.
+/// What residuals are measured by: the loads, or the cables' pull where there are no loads.  [N]
 double Statics::reference() const { return load_ > 0 ? load_ : scales_.load; }
 
 bool Statics::is_final(double now, double previous) const {
@@ -194,7 +196,7 @@ bool Statics::is_final(double now, double previous) const {
   return now > 0.5 * previous && (now <= enough * reference() || (!is_lost && now <= rounding_margin * noise));
 }
 
-/// Iterates with a rule, to a norm or as far as rounding allows where that is 0.
+/// Iterates with a rule.  @returns whether the goal was reached
 bool Statics::settle(StaticRule rule, const Goal& goal) {
   const double least = rule.least_tension;
   double previous = infinite;
@@ -254,8 +256,8 @@ bool Statics::factor_and_solve() {
   return reason >= 0 && negative_pivots_ == 0 && std::isfinite(norm(step_));
 }
 
-/// How much of the step to take: all, or less where forces along it would have turned round by more than they were, as
-/// they do beyond a minimum of energy, and did not fall either, as with drag they may.
+/// @returns the share of the step to take.  It is less than all where the force along the step turns round and is
+/// nearly as large as before or larger, as beyond a minimum of energy, unless the residual falls, as with drag it may.
 double Statics::search(const StaticRule& rule, double now, bool searches) {
   const double before = -dot(step_, r_);
   double share = 1;

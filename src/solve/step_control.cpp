@@ -9,10 +9,11 @@ namespace {
 
 constexpr double rounding = 1e-6;   // of a step
 
-/// What the error of a doubled step may be expected to reach, over the tolerance.
+/// A step is doubled if its error can then be expected to be at most this part of the tolerance.
 constexpr double safety = 0.5;
 
-/// A step that grows at once may have to shrink at once.
+/// So many steps in a row could have been doubled before one is.  If a step grew at once, it might have to shrink at
+/// once.
 constexpr int steps_before_growth = 3;
 
 }   // namespace

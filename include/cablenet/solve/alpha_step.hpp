@@ -2,14 +2,15 @@
 
 namespace cablenet::solve {
 
-/// The generalised-alpha method's weights.  In a step from (x0, v0, a0) to (x1, v1, a1) over dt
+/// The generalised-alpha method's weights.  A step of length dt leads from (x0, v0, a0) to (x1, v1, a1):
 ///   x1 = x0 + dt v0 + dt^2 ((1/2 - beta) a0 + beta a1),  v1 = v0 + dt ((1 - gamma) a0 + gamma a1)
-/// and the equations of motion hold at the stage x0 + alpha_f (x1 - x0), v0 + alpha_f (v1 - v0), a0 + alpha_m (a1 -
-/// a0). Source: Chung & Hulbert, J. Appl. Mech. 60 (1993) 371, whose alphas are 1 minus these.
+/// The equations of motion hold at the stage:
+///   x0 + alpha_f (x1 - x0),  v0 + alpha_f (v1 - v0),  a0 + alpha_m (a1 - a0)
+/// Source: Chung & Hulbert, J. Appl. Mech. 60 (1993) 371, whose alphas are 1 minus these.
 struct AlphaWeights {
   double alpha_m, alpha_f, gamma, beta;
 
-  /// PETSc's TSALPHA2 estimates its first acceleration with weights of their own.
+  /// These are the weights of the two steps by which PETSc's TSALPHA2 estimates its first acceleration.
   bool is_start() const { return alpha_m == 1 && alpha_f == 1 && gamma == 1 && beta == 0.5; }
   /// At spectral radius 1 the method's acceleration alternates about the true one from step to step.
   bool alternates() const { return alpha_m == 0.5 && alpha_f == 0.5; }
@@ -19,7 +20,7 @@ struct AlphaWeights {
 struct AlphaStep : AlphaWeights {
   double dt;   ///< [s]
 
-  /// How v and a at the stage follow x there [1/s, 1/s^2].
+  /// How fast v and a at the stage change with x at the stage: dv/dx [1/s] and da/dx [1/s^2].
   double shift_v() const { return gamma / (beta * dt); }
   double shift_a() const { return alpha_m / (alpha_f * beta * dt * dt); }
 };

@@ -10,10 +10,10 @@
 
 /// PETSc's TSALPHA2, and all that the program knows of it: nothing else calls a function of TS.
 ///
-/// Its first acceleration.  TSALPHA2 has no way to be told a0.  It estimates a0 by two steps of dt/2 with weights of
-/// their own (AlphaWeights::is_start), from which a wrong a0 results before PETSc 3.22 and one of first order later.
-/// In those steps the residual here is a - c a0, which is linear and has the solution that makes TSALPHA2's estimate
-/// the true a0, to rounding.  The same holds after restart().
+/// The first acceleration a0.  TSALPHA2 cannot be told a0.  It estimates a0 by two steps of dt/2 with weights of their
+/// own (AlphaWeights::is_start).  With the equations of motion that estimate would be wrong before PETSc 3.22, and of
+/// first order in dt since.  So TSALPHA2 gets another residual in those two steps: a - c a0, with the true a0 and with
+/// the factor c that makes its estimate a0 to rounding.  It does the same again after restart().
 ///
 /// Tests: tests/parallel/dynamics_test.cpp, resume_test.cpp
 namespace cablenet::solve {
@@ -26,7 +26,7 @@ public:
   /// What a step came to, after PETSc's own retries with shorter steps.
   struct Outcome {
     bool is_done;
-    bool is_retried;   ///< attempts failed
+    bool is_retried;   ///< an attempt was rejected, and a shorter one followed
     double taken;      ///< [s]
     double next;       ///< the last attempt's length, or what the user's -ts_adapt_type wants next [s]
     long rejected, newton, linear;
@@ -48,15 +48,17 @@ public:
   /// The user's -ts_adapt_type chooses the steps.
   bool user_adapts() const;
 
-  /// An attempt is refused where `accepts` says so of its local error [m] and its length [s]; the next one is shorter
-  /// by `scale`.
+  /// `accepts` is told the local error [m] and the length [s] of each attempt.  Where it answers false the attempt is
+  /// refused, and the next one is `scale` times as long.
   void control_errors(std::function<bool(double error, double dt)> accepts, double scale);
   /// The next step starts with the acceleration a() instead of the one that TSALPHA2 keeps.
   void restart();
 
+  /// Sets up a step from t, of length dt [s].
   void begin(double t, double dt);
   Outcome attempt();
-  /// The step is taken, v() as it is now.  @param taken [s]
+  /// Ends a step that was taken: computes a() from x() and from v(), which the caller may have changed.
+  /// @param taken  the length of the step [s]
   void accept(double taken);
   /// Runs the user's monitors.
   void monitor(long step, double t);
@@ -103,7 +105,7 @@ private:
   long rejected_ = 0, newton_ = 0, linear_ = 0;   ///< so far
   std::function<bool(double, double)> accepts_;
   double refused_scale_ = 1;
-  PetscReal failed_scale_ = 1;   ///< after a failure of Newton's method
+  PetscReal failed_scale_ = 1;   ///< the length of the next attempt over one at which Newton's method failed
   LocalError local_error_;
   double error_ = 0;
 };

@@ -39,8 +39,9 @@ public:
   FailedPart failed_part() { return newton_.failed_part(outside_body_); }
 
   /// Saves or loads t, x, v, a, what the terms keep, and all else that the further path depends on.  To be called
-  /// between steps: before run(), or by an observer of steps.  Saving changes the path by rounding: this run
-  /// goes on like one that is made anew and loads.  On the same number of ranks both are equal bit for bit.
+  /// between steps: before run(), or by an observer of steps.  Saving restarts the stepper, which changes the further
+  /// path by rounding.  After that the run that saves and a run that loads are equal, on the same number of ranks bit
+  /// for bit.
   /// @throws InputError if what is loaded does not fit
   void archive(Archive& archive);
 

@@ -22,7 +22,7 @@ public:
   /// @throws InputError if -cable_elimination_limit is negative
   LinearSolver(KSP ksp, const partition::LocalNetwork& network, Mat matrix);
 
-  /// Factoring costs many times a solve: a net's.
+  /// Factoring costs many times as much as a solve, as it does for nets.
   bool factors_are_dear() const { return factors_are_dear_; }
   /// What the last factorisation met; nothing where the elimination is not used.
   std::optional<PivotReport> pivots() const;

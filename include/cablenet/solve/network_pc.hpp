@@ -23,9 +23,9 @@ class NetworkPc {
 public:
   /// @param matrix         AIJ, in the blocks of `network` and in its numbering.  Its values are read at each
   ///                       factorisation
-  /// @param most_per_node  how many products of 3x3 blocks a factorisation may take for each node of a rank's equal
-  ///                       share of the nodes.  A larger block counts as the 3x3 blocks that have its unknowns or its
-  ///                       work
+  /// @param most_per_node  how many products of 3x3 blocks a factorisation may take on a rank, over the nodes that the
+  ///                       rank would have if all had equally many.  A body counts as so many nodes as have its
+  ///                       unknowns, and a product of larger blocks as so many as have its work
   /// @returns nothing where a factorisation would take more
   static std::unique_ptr<NetworkPc> make(const partition::LocalNetwork& network, Mat matrix, double most_per_node);
   ~NetworkPc();

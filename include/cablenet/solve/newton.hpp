@@ -16,10 +16,12 @@ namespace cablenet::solve {
 
 /// Newton's method for a network's equations at a stage, with PETSc's SNES.
 ///
-/// First guess: x0 + dt v0 + dt^2/2 a0.  End: where the residual is down to rounding (NewtonConvergence) or to PETSc's
-/// tolerances.  Tangents: where no option says otherwise they are made here, after the convergence test, and SNES is
-/// told to keep what it has.  Its own call for a tangent costs a fifth of a small step in look-ups of options.
-/// Line search: none that matters; a retry searches the line.
+/// The first guess is x0 + dt v0 + dt^2/2 a0.  The iteration ends where the residual is down to rounding
+/// (NewtonConvergence) or to PETSc's tolerances.  Only a retry searches along the line of a correction.
+///
+/// This class makes the tangents itself, in the convergence test, and tells SNES never to make one: SNES's own way to
+/// a tangent looks up options, which costs a fifth of a small step.  Where an option of the user's needs SNES to make
+/// tangents, SNES makes them.
 ///
 /// All member functions are collective.  Tests: tests/parallel/dynamics_test.cpp, tangent_reuse_test.cpp
 class Newton final : public StageEquations {

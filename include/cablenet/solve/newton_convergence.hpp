@@ -12,7 +12,8 @@ public:
   /// @param iteration     corrections so far
   /// @param norm          2-norm of the residual after them [N]
   /// @param noise         2-norm of a residual that is rounding alone [N]
-  /// @param is_retry      the step has failed before.  Its first guess may be as good as rounding allows
+  /// @param is_retry      an earlier attempt at the step failed.  A residual near `noise` is then enough, that of the
+  ///                      first guess included
   /// @param same_tangent  the last correction was made with an older tangent
   bool is_at_rounding(int iteration, double norm, double noise, bool is_retry, bool same_tangent);
   /// The last residual's norm over that of the one before it; 0 after the first.

@@ -12,7 +12,7 @@ namespace cablenet::solve {
 
 struct SchemeRow {
   scene::Scheme scheme;
-  bool has_radius;   ///< a spectral radius damps what the step does not resolve; else it is 1, which damps nothing
+  bool has_radius;   ///< its spectral radius can be chosen, to damp what the step does not resolve; if not it is 1
   bool has_axial_dissipation;
   const char* advice;   ///< what may help where Newton's method fails: "Try a smaller time.step or ..."
 };

@@ -5,8 +5,8 @@ namespace cablenet::solve {
 
 /// The tensions at an iterate [N].
 struct TensionRange {
-  double least;     ///< of elements that carry compression
-  double largest;   ///< absolute
+  double least;     ///< the strongest compression, as a negative tension; 0 where there is none
+  double largest;   ///< the largest absolute value
 };
 
 /// What keeps a tangent definite away from equilibrium.
@@ -15,22 +15,23 @@ struct Steadying {
   double steadiness = 0;    ///< as in system::TangentRequest; none with system::StaticRule::exact
 };
 
-/// The network's forces at an instant, in a frame in which nothing moves: without inertia and waves.
+/// The network's forces at an instant, in a frame in which the network is at rest.  There is no inertia, and no waves.
 /// All member functions are collective unless they say otherwise.  Tests: tests/parallel/surroundings_test.cpp
 class StaticForces {
 public:
   /// @param velocity  of the frame [m/s]: the water and the bed move past it
   StaticForces(system::Assembler& assembler, double t, const Vector3& velocity);
 
-  /// The one velocity that all prescribed nodes have in the first fifth of the window.  Otherwise each component is the
-  /// middle of what occurs in the window, or zero where that varies by more than a quarter of the middle: heave, a
-  /// start from rest, a point that stays.  [m/s]
+  /// A velocity for the frame, from those of the prescribed nodes.  [m/s]
+  /// If all of them have one velocity in the first fifth of the window, it is that one.  Otherwise each component is
+  /// the middle between the least and the largest that occur in the window.  It is zero where these two differ by more
+  /// than a quarter of the middle, as in heave, at a start from rest, or where one point stays and another moves.
   /// @param window  from t on [s]
   static Vector3 frame_velocity(const system::Assembler& assembler, double t, double window);
 
   /// Water moves past the frame.  Not collective.
   bool is_in_flow() const;
-  /// Keeps an iterate's directions, which system::StaticRule::ropes needs of the last one.
+  /// Keeps the elements' directions at x.  system::StaticRule::ropes needs those of the iterate before.
   void keep(Vec x);
   /// r = internal forces - loads; with a matrix, also dr/dx + s^2 M + s dr/dv, s the pseudo-rate, published.  [N]
   /// @returns false on a rank where it is not defined
@@ -49,7 +50,7 @@ private:
   system::Assembler& assembler_;
   double t_;
   Vector3 velocity_;
-  double stiffest_bed_;    ///< the largest of contact over an element, in stiffness, times EA [N]
+  double stiffest_bed_;    ///< the largest stiffness of a node's contact over an element's EA/L, times EA [N]
   double softest_cable_;   ///< the least EA [N]
   system::Vector v_, resting_;
 };

@@ -13,10 +13,10 @@
 /// other shapes the way has three stages, each of which starts from where the one before it ended:
 ///   1. Strings.  Each cable pulls with (l/L)^p times one tension.  For p = 1 this is linear, so that the drawn shape
 ///      does not matter.  With larger p the strings extend less and less.
-///   2. Ropes.  The forces are those of the cables as they are.  The tangent's geometric stiffness, tension over
-///   length,
-///      takes another tension: the one that the linear equations predicted for the last correction.  An element that
-///      turns far in a correction is stretched by it, and the tension from that stretch would make it far too stiff.
+///   2. Ropes.  The forces are those of the cables as they are.  But the tangent's geometric stiffness, tension over
+///      length, takes another tension: the one that the linear equations predicted for the last correction.  An element
+///      that turns far in a correction is stretched by it, and the tension from that stretch would make it far too
+///      stiff.
 ///   3. Newton's method on the cables as they are.
 /// Where a tangent is singular or has negative pivots, masses and drag are added as in a step of pseudo-time 1/shift.
 /// The last resort is to let the network settle in time (relaxation.hpp).
@@ -56,10 +56,10 @@ public:
 
 private:
   struct Goal {
-    double norm;      ///< of the residual [N]
-    int iterations;   ///< at most
-    bool searches;    ///< along the line
-    bool may_shift = true;
+    double norm;             ///< of the residual, at which to end; 0: as far as rounding allows [N]
+    int iterations;          ///< at most
+    bool searches;           ///< along the line of each correction
+    bool may_shift = true;   ///< where the tangent is not definite
   };
 
   bool is_taut();

@@ -10,7 +10,7 @@ namespace cablenet::solve {
 /// The step is halved and doubled, never changed a little: a tangent can be kept as long as the step stays.
 class StepControl {
 public:
-  /// The next attempt over one whose error was too large.
+  /// The length of the next attempt over that of one whose error was too large.
   static constexpr double refused_scale = 0.5;
 
   /// @param tolerance  that the local error of a step may reach [m], > 0
@@ -36,7 +36,7 @@ private:
   double tolerance_, limit_, longest_, shortest_;
   double error_ = 0, dt_ = 0;                   ///< of the last attempt
   double refused_error_ = 0, refused_dt_ = 0;   ///< of the last attempt that was refused
-  int growing_ = 0;                             ///< steps in a row after which twice the limit would have done
+  int growing_ = 0;                             ///< steps in a row that could have been doubled
 };
 
 }   // namespace cablenet::solve
