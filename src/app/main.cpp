@@ -8,7 +8,8 @@
 
 namespace {
 
-/// An exception that nobody is meant to catch may stand on one rank alone: unwinding would leave the others waiting.
+/// An exception that nobody catches may have been thrown on one rank alone.  Unwinding there would leave the others
+/// waiting.
 [[noreturn]] void abort_all_ranks() {
   int rank = 0, started = 0;
   MPI_Initialized(&started);

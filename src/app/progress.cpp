@@ -15,7 +15,8 @@ constexpr double plain_period = 5;
 
 double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
-/// mpirun gives its ranks a terminal of their own whatever its own output is, so it is asked itself, being the parent.
+/// mpirun gives its ranks a terminal of their own, whatever its own output is.  So the output of mpirun is looked at,
+/// which is the parent process.
 bool output_is_terminal() {
   if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) return isatty(STDOUT_FILENO) != 0;
   std::error_code problem;

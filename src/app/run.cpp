@@ -42,7 +42,7 @@ void print_error(const std::string& message) {
   std::_Exit(status);
 }
 
-/// The file's text, or nothing with the reason in `text`.
+/// Reads a file into `text`.  @returns false if it cannot be read; `text` is then the reason
 bool slurp(const std::string& path, std::string& text) {
   if (std::filesystem::is_directory(path)) {
     text = fmt::format("{} is a folder; name a scene, a YAML file", path);
@@ -80,7 +80,7 @@ int check_scene(const CommandLine& line) {
   return 0;
 }
 
-/// PETSc prints the help of what is set up from options.
+/// PETSc prints the help of a solver when it is set up from options.
 int print_solver_help() {
   solve::AlphaStepper::show_options(PETSC_COMM_WORLD);
   solve::show_own_options(PETSC_COMM_WORLD);

@@ -43,20 +43,19 @@ private:
   double cpu_ = cpu_seconds();
 };
 
-/// The most computing of any rank.  Collective.
+/// The phase with the computing time of the rank that computed most.  Collective.
 Report::Phase slowest(Report::Phase phase) {
   MPI_Allreduce(MPI_IN_PLACE, &phase.cpu, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
   return phase;
 }
 
-/// In which the tow points' velocity is looked at for the static start, which moves with them: of the run, or
-/// [s] where there is none.
+/// A static start moves with the tow points.  For so long their velocity is looked at: this part of the run, or so many
+/// seconds where there is no run.
 constexpr double steady_part = 0.1, steady_window = 1;
 
 constexpr const char* statics_advice =
     "See that every part hangs on something fixed or afloat; try shape: catenary or a drawn shape that is nearer, or "
-    "let "
-    "the scene settle in time with axial_damping";
+    "let the scene settle in time with axial_damping";
 
 class Simulation {
 public:
@@ -123,7 +122,7 @@ private:
     if (failed) throw OutputError(problem);
   }
 
-  /// Makes it the network's start.
+  /// @returns whether there is one; `statics_` keeps it until the run goes on from it
   bool find_equilibrium() {
     const bool found = statics_->solve();
     watch_.lap(equilibrium_);
@@ -134,7 +133,7 @@ private:
     return found;
   }
 
-  /// Writes what was found, or the best that was.
+  /// Writes the equilibrium, or the best shape on the way to it.
   int conclude_statics(bool found) {
     if (!found)
       report_.message = fmt::format(
@@ -237,7 +236,7 @@ private:
     return fmt::format("body {}", network_.bodies[static_cast<std::size_t>(failed.body)].name);
   }
 
-  /// Where and why.
+  /// Where and why the solver could not go on.
   std::string explanation() {
     failed_ = dynamics_->failed_part();
     if (failed_.body < 0)

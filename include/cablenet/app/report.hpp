@@ -29,7 +29,7 @@ struct Report {
     int iterations;
   };
   std::optional<Statics> statics;   ///< where there was an equilibrium to find
-  /// Of a part of the run: [s] of wall time, and of this process's computing.
+  /// A part of the run, with its wall time and its time of computing [s].
   struct Phase {
     std::string name;
     double wall = 0;
@@ -47,7 +47,7 @@ std::string describe(const scene::Scene& scene, const network::Network& network)
 /// "equilibrium: largest unbalanced force 1e-12 of ..." for the terminal.
 std::string describe(const Report::Statics& statics);
 
-/// Writes `path` by tmp + rename on rank 0.  Collective.
+/// Rank 0 writes `path`, under another name until it is complete.  Collective.
 /// @throws OutputError on every rank alike.
 void write_report(const std::filesystem::path& path, const scene::Scene& scene, const network::Network& network,
                   const partition::Partition& partition, const Report& report, MPI_Comm communicator);
