@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <numbers>
 #include <sstream>
@@ -175,8 +174,7 @@ TEST(ReadWater, Bodies) {
 
 TEST(ReadWater, EveryKeyIsCopiedByRepeat) {
   std::ostringstream text;
-  text << std::ifstream(std::filesystem::path(__FILE__).parent_path().parent_path() / "cases/valid/everything.yaml")
-              .rdbuf();
+  text << std::ifstream(std::string(CABLENET_ROOT) + "/tests/cases/valid/everything.yaml").rdbuf();
   const Scene scene = read_scene(text.str(), "everything.yaml");
   EXPECT_EQ(scene.fluid->current.at(2).velocity, Vector3(0.5, 0, 0));
   EXPECT_EQ(scene.fluid->waves.size(), 2u);
