@@ -89,9 +89,8 @@ TEST_F(CableInWaterTest, TangentIsExactAcrossTheSurface) {
       // The cable is nearly level, so that the surface crosses its diameter.
       for (Vector3& x : m.x) x.z() = environment::surface_height(fluid, x, 0.7).z + 0.03 * (x.z() - 0.4);
     expect_exact_tangent(rope, m, VaryingWater<true>{fluid, 0.7, g}, {1, 3, 11}, 1e-5);
-    const HalfWetness wet =
-        half_wetness(fluid, 0.7, 0.08, m.x[1].z() - m.x[0].z(), gauss_points[0], between(m.x, gauss_points[0].at));
-    partly_wet += wet.fraction > 0 && wet.fraction < 1;
+    const double wet = wet_part({wet_half(fluid, 0.7, 0.08, m.x, 0), wet_half(fluid, 0.7, 0.08, m.x, 1)}).length();
+    partly_wet += wet > 0 && wet < 1;
   }
   EXPECT_GE(partly_wet, 30);
 }
@@ -149,6 +148,81 @@ TEST_F(CableInWaterTest, DragAcrossAndAlongTheFlow) {
   const Vector3 e(0.5, 0, std::sqrt(0.75)), across(std::sqrt(0.75), 0, -0.5);
   const Vector3 expected = 55 * 2.25 * 0.75 * L * across + 2.5 * 2.25 * 0.25 * L * e;
   EXPECT_TRUE(total(weightless, resting(Vector3::Zero(), 1.2 * L * e), water).isApprox(expected, 1e-13));
+}
+
+/// A cable along its circular path has no flow across it, although the ends of the chords have.
+TEST_F(CableInWaterTest, DragIsThatOfTheFlowAtTheMiddle) {
+  const double radius = 3, angle = 0.4;
+  EndMotion m = resting(radius * Vector3(std::cos(angle), -std::sin(angle), 0),
+                        radius * Vector3(std::cos(angle), std::sin(angle), 0));
+  for (int i : {0, 1}) m.v[i] = Vector3(0, 0, 1).cross(m.x[i]);
+  const CableInWater floating{0, 0, 55, 2.5, 0.08};
+  const EndLoads loads = water_loads<false>(floating, L, m, UniformWater{Vector3::Zero(), g}, still_follow);
+  const double speed = radius * std::cos(angle);
+  for (int i : {0, 1}) EXPECT_LE((loads.on[i] + Vector3(0, 0.5 * L * 2.5 * speed * speed, 0)).norm(), 1e-13);
+}
+
+TEST_F(CableInWaterTest, OppositeMotionOfTheEndsMeetsAddedMassAlone) {
+  EndMotion m = resting({0, 0, 0}, {L, 0, 0});
+  m.v = {Vector3(0, 2, -1), Vector3(0, -2, 1)};
+  m.a = {Vector3(0, 3, 0), Vector3(0, -3, 0)};
+  const CableInWater floating{0, 3.1, 55, 2.5, 0.08};
+  const EndLoads loads = water_loads<false>(floating, L, m, UniformWater{Vector3::Zero(), g}, still_follow);
+  for (int i : {0, 1}) EXPECT_LE((loads.on[i] + 3.1 * L / 6 * m.a[i]).norm(), 1e-13);
+}
+
+TEST_F(CableInWaterTest, DragAcrossSlowsWhatTurnsTheChord) {
+  EndMotion m = resting({0, 0, 0}, {L, 0, 0});
+  m.v = {Vector3(0, -0.3, 0.2), Vector3(0, 0.3, -0.2)};
+  const CableInWater floating{0, 0, 55, 2.5, 0.08};
+  const EndLoads loads = water_loads<false>(floating, L, m, UniformWater{{0, 0, 1.5}, g}, still_follow);
+  const Vector3 drag(0, 0, 55 * 1.5 * 1.5 * L), couple = turning_share / 12 * 55 * 1.5 * L * (m.v[1] - m.v[0]);
+  EXPECT_LE((loads.on[0] - 0.5 * drag - couple).norm(), 1e-13);
+  EXPECT_LE((loads.on[1] - 0.5 * drag + couple).norm(), 1e-13);
+}
+
+/// The drag on an upright cable acts at the middle of its wetted part, whichever end is wet, and has the flow there.
+TEST_F(CableInWaterTest, DragActsAtTheMiddleOfTheWettedPart) {
+  Fluid fluid;
+  fluid.surface = 0;
+  fluid.current = {{-L, {0, 0, 0}}, {0, {1.5, 0, 0}}};
+  const CableInWater thin{0, 0, 55, 2.5, 1e-14 * L};
+  for (const double wet : {0.5, 1.0})
+    for (const bool turned : {false, true}) {
+      EndMotion m = resting({0, 0, -wet * L}, {0, 0, (1 - wet) * L});
+      if (turned) std::swap(m.x[0], m.x[1]);
+      const EndLoads loads = water_loads<false>(thin, L, m, VaryingWater<true>{fluid, 0, g}, still_follow);
+      const double speed = 1.5 * (1 - 0.5 * wet), drag = 55 * speed * speed * wet * L;
+      EXPECT_NEAR(loads.on[0].x() + loads.on[1].x(), drag, 1e-12);
+      EXPECT_NEAR(loads.on[turned ? 0 : 1].x(), 0.5 * wet * drag, 1e-12) << wet << turned;
+    }
+}
+
+/// Nothing jumps where an element gets wet, becomes wet all over, or has its half at the surface.
+TEST_F(CableInWaterTest, LoadsAndTangentAreContinuousWhileAnElementSinks) {
+  Fluid fluid = sea();
+  fluid.waves.clear();   // their motion has a corner at the still surface
+  const VaryingWater<true> water{fluid, 0.7, g};
+  for (const double tilt : {0.0, 0.01, 0.6}) {
+    const auto at = [&](double z) {
+      EndMotion m = resting({0, 0, z}, {0.9 * L, 0.1 * L, z + tilt * L});
+      m.v = {Vector3(0.3, -0.5, 0.2), Vector3(-0.4, 0.1, 0.6)};
+      m.a = {Vector3(1, 2, 3), Vector3(-2, 1, 0)};
+      return water_loads<true>(rope, L, m, water, {1, 3, 11});
+    };
+    const double step = 1e-4;
+    int changed = 0;
+    for (double z = -0.7; z < 1.2; z += step) {
+      const EndLoads a = at(z), b = at(z + step);
+      for (int i : {0, 1}) {
+        EXPECT_LE((b.on[i] - a.on[i]).norm(), 500 * step);
+        for (int j : {0, 1}) EXPECT_LE((b.by[i][j] - a.by[i][j]).norm(), 1.5e4 * step);
+        changed += b.on[i] != a.on[i];
+      }
+    }
+    EXPECT_GE(changed, 1000);
+    EXPECT_EQ(at(1.2).on[0].norm() + at(1.2).by[0][0].norm(), 0);
+  }
 }
 
 TEST_F(CableInWaterTest, AddedMassIsConsistentAndActsAcrossAlone) {

@@ -96,7 +96,7 @@ def check_profile(v):
     """The force of a current on a taut upright cable is the integral of its pressure."""
     points = {"a": {"position": [0, 0, -10], "motion": "fixed"}, "b": {"position": [0, 0, 0], "motion": "fixed"}}
     stiff = {**CABLE, "axial_stiffness": 1e9}
-    made = scene(stiff, points, {**lengthwise(20), "length": 9.99}, 1, 0.1, 0.1, ["a", "b"])
+    made = scene(stiff, points, {**lengthwise(40), "length": 9.99}, 1, 0.1, 0.1, ["a", "b"])
     rows = [[-8, 0.5, 0, 0], [-3, 1.5, 0, 0], [-1, -0.5, 0, 0]]
     surrounded(made, current={"profile": rows})
     del made["time"]

@@ -7,13 +7,18 @@
 #include "cablenet/environment/fluid.hpp"
 
 /// The forces of water on a two-node cable element: Morison's drag, added mass normal to the cable, buoyancy and the
-/// pressure gradient of waves.  The load p per unstretched length is integrated with two Gauss points.
-/// With e = d/l, u and w the water's velocity and acceleration less the cable's, ut = e.u and un = u - e ut:
-///   p = wet [ 1/2 rho Cdn d |un| un + 1/2 rho Cdt pi d |ut| ut e + rho A Ca (w - e (e.w)) + rho A (g ez + a_water) ]
-/// wet is the wetted fraction of the half element around the Gauss point, below the height of the water at that point;
-/// without a surface wet = 1.  The added mass matrix is thus a consistent one, as the cable's mass matrix is.
-/// Source: Morison et al., Petroleum Trans. AIME 189 (1950) 149; MoorDyn's documentation for cables.
-/// Tests: tests/unit/cable_in_water_test.cpp
+/// pressure gradient of waves, per unstretched length.
+/// With N1 = 1 - s and N2 = s, and integrals over the wetted part of 0 <= s <= 1, the load on node i is
+///   on_i = L [ n_i p + g_i - e (e.g_i) ]
+///   p = 1/2 rho Cdn d |un| un + 1/2 rho Cdt pi d |ut| ut e + rho A (g ez + w)
+///   g_i = rho A Ca (n_i w - sum_j m_ij a_j) -/+ q 1/2 rho Cdn d |un| turning_share (v_2 - v_1)
+///   n_i = integral of N_i,   m_ij = integral of N_i N_j,   q = m_22 - n_2^2/(n_1 + n_2)
+/// with e = d/l, u the water's velocity less the cable's, ut = e.u, un = u - e ut, and w the water's acceleration.  u
+/// and w are taken once, at the middle of the wetted part, s = n_2/(n_1 + n_2).  Other points see a flow across the
+/// chord that the curved cable does not have.  The last part of g_i, + on node 1 and - on node 2, is a couple that
+/// slows the turning of the chord; numerics.md tells why it is there.  Without a surface n = 1/2, m_11 = m_22 = 1/3,
+/// m_12 = 1/6 and q = 1/12; wet_part.hpp has them where an element is partly wet. Source: Morison et al., Petroleum
+/// Trans. AIME 189 (1950) 149; MoorDyn's documentation for cables. Tests: tests/unit/cable_in_water_test.cpp
 namespace cablenet::elements {
 
 /// The motion of an element's two nodes.
@@ -42,7 +47,13 @@ struct VaryingWater {
   double gravity;   ///< [m/s^2]
 };
 
-/// The integral of p over an element; cable_in_water_loads.hpp defines it.
+inline EndLoads no_loads() {
+  const Vector3 none = Vector3::Zero();
+  const Matrix3 same = Matrix3::Zero();
+  return {{none, none}, {{{same, same}, {same, same}}}};
+}
+
+/// The loads on an element; cable_in_water_loads.hpp defines it.
 /// @param L  unstretched length [m]
 /// @returns the loads; `by` is set only where with_tangent is true
 template <bool with_tangent, class Water>

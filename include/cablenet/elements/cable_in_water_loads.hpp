@@ -1,93 +1,83 @@
 #pragma once
-#include <cmath>
-#include <numbers>
-
-#include "cablenet/elements/morison.hpp"
+#include "cablenet/elements/middle_load.hpp"
+#include "cablenet/elements/wet_part.hpp"
 
 /// The loads of cable_in_water.hpp in the form that the loop over elements inlines.  The type of the water leaves out
 /// at compile time what that water does not have.  Source and tests: see cable_in_water.hpp.
 namespace cablenet::elements {
 
-/// A Gauss point, in fractions of the element's length.  The shape functions there are N1 = 1 - at and N2 = at.
-struct GaussPoint {
-  double at;
-  double middle;   ///< of the half element around the point
-};
-constexpr double gauss_offset = 0.5 * std::numbers::inv_sqrt3;
-constexpr std::array<GaussPoint, 2> gauss_points{{{0.5 - gauss_offset, 0.25}, {0.5 + gauss_offset, 0.75}}};
-
-inline Vector3 between(const std::array<Vector3, 2>& ends, double at) { return (1 - at) * ends[0] + at * ends[1]; }
-
-/// The wetted fraction of the half element around a Gauss point at x, and its derivatives.
-struct HalfWetness {
-  double fraction;
-  double by_rise = 0;                   ///< by the chord's z [1/m]
-  Vector3 by_point = Vector3::Zero();   ///< by x [1/m]
-};
-
-inline HalfWetness half_wetness(const environment::Fluid& fluid, double t, double diameter, double dz,
-                                const GaussPoint& gauss, const Vector3& x) {
-  const double to_middle = gauss.middle - gauss.at, extent = 0.5 * std::abs(dz);
-  const double z = x.z() + to_middle * dz, still = *fluid.surface - z;
-  if (std::abs(still) >= fluid.reach() + 0.5 * (extent + diameter)) return {still > 0 ? 1.0 : 0.0};
-  const environment::SurfaceHeight surface = environment::surface_height(fluid, x, t);
-  const environment::Wetness wet = environment::piece_wetness(surface.z - z, extent, diameter);
-  const double by_length = dz < 0 ? -0.5 * wet.by_extent : 0.5 * wet.by_extent;
-  return {wet.fraction, by_length - to_middle * wet.by_depth, wet.by_depth * (surface.slope - Vector3::UnitZ())};
+/// What acts on node i across the cable beside n_i p, over the element's length: added mass times the acceleration that
+/// it meets, and the couple by which drag slows the chord's turning.  [N/m]
+template <class Water>
+Vector3 uneven_load(const CableInWater& c, const WetPart& wet, const EndMotion& m, const MiddleLoad& middle,
+                    std::size_t i) {
+  const Vector3 a = wet.m[i][0] * m.a[0] + wet.m[i][1] * m.a[1];
+  const double slowing = (i == 0 ? 1 : -1) * wet.spread() * middle.flow.slowing();
+  const Vector3 couple = slowing * (m.v[1] - m.v[0]);
+  if constexpr (Water::varies) return c.added * (wet.n[i] * middle.water.acceleration - a) + couple;
+  return couple - c.added * a;
 }
 
-/// Reduces the load on a fully wet cable to the wetted fraction.
-template <bool with_tangent>
-void wet_in_part(const HalfWetness& wet, const Shift& f, LineLoad& load) {
-  if constexpr (with_tangent) {
-    load.M *= wet.fraction;
-    for (LineSlope* slope : {&load.chord, &load.point}) slope->a *= wet.fraction, slope->q *= wet.fraction;
-    load.by_place = wet.fraction * load.by_place + f.x * load.p * wet.by_point.transpose();
-    load.by_rise = f.x * wet.by_rise * load.p;
-  }
-  load.p *= wet.fraction;
-}
-
-/// The load p and its derivatives at a Gauss point.
-/// @param d  the chord   @param e  d/l
-template <bool with_tangent, class Water>
-LineLoad line_load(const CableInWater& c, const Vector3& d, const Vector3& e, double l, const GaussPoint& gauss,
-                   const EndMotion& m, const Water& water, const Shift& f) {
-  const Vector3 v = between(m.v, gauss.at), a = between(m.a, gauss.at);
-  if constexpr (!Water::varies) {
-    LineLoad load = wet_line_load<with_tangent>(c, e, l, CrossFlow(e, water.velocity - v, -a), f);
-    load.p.z() += c.displaced * water.gravity;
-    return load;
-  } else {
-    const Vector3 x = between(m.x, gauss.at);
-    HalfWetness wet{1};
-    if constexpr (Water::has_surface) wet = half_wetness(water.fluid, water.t, c.diameter, d.z(), gauss, x);
-    if (wet.fraction == 0) return no_line_load();
-    const environment::WaterMotion motion = environment::water_motion(water.fluid, x, water.t);
-    const CrossFlow flow(e, motion.velocity - v, motion.acceleration - a);
-    LineLoad load = wet_line_load<with_tangent>(c, e, l, flow, f);
-    load.p += c.displaced * (motion.acceleration + water.gravity * Vector3::UnitZ());
-    if constexpr (with_tangent) load.by_place = by_place(c, e, flow, load.M, motion, f.x);
-    load.by_rise.setZero();
-    if (wet.fraction < 1) wet_in_part<with_tangent>(wet, f, load);
-    return load;
-  }
-}
-
-/// The derivative of one node's load by the unknowns of a node.  At each Gauss point g the load's derivative by the
-/// chord counts chord[g] times, and its derivative by the point counts point[g] times.
-template <bool varies>
-Matrix3 node_tangent(const Vector3& e, const LineLoad& load0, const LineLoad& load1, const std::array<double, 2>& chord,
-                     const std::array<double, 2>& point) {
-  const LineSlope sum0 = sum(chord[0], load0.chord, point[0], load0.point);
-  const LineSlope sum1 = sum(chord[1], load1.chord, point[1], load1.point);
-  Matrix3 by = sum0.c * load0.M + sum1.c * load1.M + e.lazyProduct((sum0.q + sum1.q).transpose());
-  by.diagonal().array() += sum0.a + sum1.a;
-  if constexpr (varies) {
-    by += point[0] * load0.by_place + point[1] * load1.by_place;
-    by.col(2) += chord[0] * load0.by_rise + chord[1] * load1.by_rise;
-  }
+/// A node's derivative by another: share times that of the load on the whole element, and that of the uneven load.
+/// @param turn  L times the derivative of e by the chord   @param rates  the uneven load falls by it times the motion
+inline Matrix3 node_slope(const Vector3& e, double share, const Matrix3& whole, const Vector3& uneven, double turn,
+                          double rates) {
+  const double along = turn * e.dot(uneven), a = rates + along;
+  const Vector3 q = turn * uneven - (a + along) * e;
+  Matrix3 by = share * whole - e.lazyProduct(q.transpose());
+  by.diagonal().array() -= a;
   return by;
+}
+
+/// The derivatives of the loads, where the wetted part stays as it is.
+template <class Water>
+void set_slopes(const CableInWater& c, double L, const Vector3& e, double l, const WetPart& wet, const EndMotion& m,
+                const MiddleLoad& middle, const std::array<Vector3, 2>& uneven, const Shift& f, EndLoads& loads) {
+  const CrossFlow& flow = middle.flow;
+  const Matrix3 chord = L * f.x / l * flow.by_axis();
+  Matrix3 point = -L * f.v * flow.by_flow();
+  Vector3 faster = -f.v * flow.slowing_by_flow();
+  if constexpr (Water::varies) {
+    point += L * f.x * by_place(c, e, middle);
+    faster += f.x * (middle.water.velocity_slope.transpose() * flow.slowing_by_flow());
+  }
+  const double at = Water::has_surface ? wet.middle() : 0.5, turn = L * f.x / l, mass = L * c.added * f.a;
+  const double couple = L * wet.spread() * flow.slowing() * f.v;
+  const Matrix3 by0 = (1 - at) * point - chord, by1 = at * point + chord;
+  loads.by[0][0] = node_slope(e, wet.n[0], by0, uneven[0], -turn, mass * wet.m[0][0] + couple);
+  loads.by[0][1] = node_slope(e, wet.n[0], by1, uneven[0], turn, mass * wet.m[0][1] - couple);
+  loads.by[1][0] = node_slope(e, wet.n[1], by0, uneven[1], -turn, mass * wet.m[1][0] - couple);
+  loads.by[1][1] = node_slope(e, wet.n[1], by1, uneven[1], turn, mass * wet.m[1][1] + couple);
+  // The couple also grows with the flow across the middle.
+  const Vector3 turning = L * wet.spread() * across(e, m.v[1] - m.v[0]), axis = f.x / l * flow.slowing_by_axis();
+  const Matrix3 by_first = turning * ((1 - at) * faster - axis).transpose();
+  const Matrix3 by_second = turning * (at * faster + axis).transpose();
+  loads.by[0][0] += by_first, loads.by[1][0] -= by_first;
+  loads.by[0][1] += by_second, loads.by[1][1] -= by_second;
+}
+
+/// Adds to the derivatives that the wetted part grows and its middle moves.
+inline void add_wetting(const CableInWater& c, double L, const Vector3& e, const EndMotion& m, const WetPart& wet,
+                        const std::array<WetHalf, 2>& halves, const MiddleLoad& middle, const Shift& f,
+                        EndLoads& loads) {
+  const CrossFlow& flow = middle.flow;
+  const double at = wet.middle();
+  const Vector3 p = middle.p + c.added * across(e, middle.water.acceleration), w = m.v[1] - m.v[0], d = m.x[1] - m.x[0];
+  const Vector3 by_middle = by_place(c, e, middle) * d - flow.by_flow() * w;
+  const double slowing_by_middle = flow.slowing_by_flow().dot(middle.water.velocity_slope * d - w);
+  for (std::size_t h = 0; h < 2; ++h) {
+    const double n0 = half_integral(h, 0), n1 = half_integral(h, 1), moved = (1 - at) * n1 - at * n0;
+    const double spread = half_integral(h, 1, 1) - 2 * at * n1 + at * at * (n0 + n1);
+    const Vector3 couple =
+        (spread * flow.slowing() + wet.spread() / wet.length() * moved * slowing_by_middle) * across(e, w);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Vector3 a = half_integral(h, i, 0) * m.a[0] + half_integral(h, i, 1) * m.a[1];
+      const double share = i == 0 ? 1 - at : at;
+      const Vector3 gain =
+          half_integral(h, i) * p + share * moved * by_middle - c.added * across(e, a) + (i == 0 ? 1 : -1) * couple;
+      for (std::size_t k = 0; k < 2; ++k) loads.by[i][k] += L * f.x * gain * halves[h].by[k].transpose();
+    }
+  }
 }
 
 template <bool with_tangent, class Water>
@@ -96,19 +86,24 @@ template <bool with_tangent, class Water>
   const Vector3 d = m.x[1] - m.x[0];
   const double l = d.norm();
   const Vector3 e = 1 / l * d;
-  const LineLoad load0 = line_load<with_tangent>(c, d, e, l, gauss_points[0], m, water, f);
-  const LineLoad load1 = line_load<with_tangent>(c, d, e, l, gauss_points[1], m, water, f);
-  // The weight of a Gauss point, L/2, times the shape functions of the node near it and of the node far from it.
-  const double near = 0.5 * L * gauss_points[1].at, far = 0.5 * L * gauss_points[0].at;
+  WetPart wet;
+  std::array<WetHalf, 2> halves{};
+  if constexpr (Water::has_surface) {
+    for (std::size_t h = 0; h < 2; ++h) halves[h] = wet_half(water.fluid, water.t, c.diameter, m.x, h);
+    wet = wet_part(halves);
+    if (wet.length() <= 0) return no_loads();
+  }
+  const MiddleLoad middle = middle_load(c, e, m, Water::has_surface ? wet.middle() : 0.5, water);
   EndLoads loads;
-  loads.on = {near * load0.p + far * load1.p, far * load0.p + near * load1.p};
+  std::array<Vector3, 2> uneven;
+  for (std::size_t i = 0; i < 2; ++i) {
+    uneven[i] = uneven_load<Water>(c, wet, m, middle, i);
+    loads.on[i] = L * (wet.n[i] * middle.p + across(e, uneven[i]));
+  }
   if constexpr (with_tangent) {
-    const double near2 = near * gauss_points[1].at, far2 = far * gauss_points[0].at, both = L / 12;
-    constexpr bool varies = Water::varies;
-    loads.by[0][0] = node_tangent<varies>(e, load0, load1, {-near, -far}, {near2, far2});
-    loads.by[0][1] = node_tangent<varies>(e, load0, load1, {near, far}, {both, both});
-    loads.by[1][0] = node_tangent<varies>(e, load0, load1, {-far, -near}, {both, both});
-    loads.by[1][1] = node_tangent<varies>(e, load0, load1, {far, near}, {far2, near2});
+    set_slopes<Water>(c, L, e, l, wet, m, middle, uneven, f, loads);
+    if constexpr (Water::has_surface)
+      if (wet.length() < 1) add_wetting(c, L, e, m, wet, halves, middle, f, loads);
   }
   return loads;
 }

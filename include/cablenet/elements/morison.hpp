@@ -1,93 +1,63 @@
 #pragma once
 #include <cmath>
 
-#include "cablenet/elements/cable_in_water.hpp"
-#include "cablenet/environment/water.hpp"
+#include "cablenet/elements/cable_data.hpp"
 
-/// Morison's load per unstretched length of a fully wet cable; cable_in_water_loads.hpp inlines it.
-/// Source and tests: see cable_in_water.hpp.
+/// Morison's drag per unstretched length of a fully wet cable, and what is across a cable; cable_in_water_loads.hpp
+/// inlines it.  Source and tests: see cable_in_water.hpp.
 namespace cablenet::elements {
 
-/// A derivative of the line load on a cable along e has the form a I + e q^T + c M, where M is LineLoad::M.
-struct LineSlope {
-  double a;
-  Vector3 q;
-  double c;
+/// The part of a vector across the unit vector e.
+inline Vector3 across(const Vector3& e, const Vector3& w) { return w - e.dot(w) * e; }
+inline Matrix3 across(const Vector3& e) { return Matrix3::Identity() - e.lazyProduct(e.transpose()); }
+
+/// The share that an element has of the couple by which drag slows a straight rod that turns in a flow across it.  A
+/// chord that turns because the cable moves along a curve has none of it, and one that vibrates has all.
+constexpr double turning_share = 0.5;
+
+/// The drag of a flow u relative to a cable along e: ut along the cable and un across it.
+/// The derivatives are by u, and by e where e changes direction but not length.
+class CrossFlow {
+public:
+  CrossFlow(const CableInWater& c, const Vector3& e, const Vector3& u)
+      : e_(e),
+        ut_(e.dot(u)),
+        un_(u - ut_ * e),
+        normal_(c.normal_drag),
+        speed_(un_.norm()),
+        across_(normal_ * speed_),
+        along_(c.tangential_drag * std::abs(ut_)) {}
+
+  Vector3 drag() const { return across_ * un_ + along_ * ut_ * e_; }
+
+  /// turning_share normal_drag |un|, by which drag slows what turns the chord, and its derivatives by u and by e.
+  double slowing() const { return turning_share * across_; }
+  Vector3 slowing_by_flow() const { return (speed_ > 0 ? turning_share * normal_ / speed_ : 0) * un_; }
+  Vector3 slowing_by_axis() const { return -ut_ * slowing_by_flow(); }
+
+  Matrix3 by_flow() const {
+    Matrix3 by = normal_part(1) + e_.lazyProduct(((2 * along_ - across_) * e_).transpose());
+    by.diagonal().array() += across_;
+    return by;
+  }
+  Matrix3 by_axis() const {
+    const double turning = (along_ - across_) * ut_;
+    Matrix3 by = normal_part(-ut_) + e_.lazyProduct(((2 * along_ - across_) * un_ - turning * e_).transpose());
+    by.diagonal().array() += turning;
+    return by;
+  }
+
+private:
+  /// scale times normal_drag un un^T/|un|
+  Matrix3 normal_part(double scale) const {
+    const double factor = speed_ > 0 ? scale * normal_ / speed_ : 0;
+    return (factor * un_).lazyProduct(un_.transpose());
+  }
+
+  Vector3 e_;
+  double ut_;
+  Vector3 un_;
+  double normal_, speed_, across_, along_;   ///< across_ = normal_drag |un|, along_ = tangential_drag |ut|
 };
-
-/// A line load p [N/m] and, where a tangent is wanted, its derivatives by the unknowns of the chord and of the point.
-/// A chord's unknowns are the difference of its nodes' unknowns.  A point's unknowns are interpolated between the
-/// nodes.
-struct LineLoad {
-  Vector3 p;
-  Matrix3 M;         ///< un un^T/|un| [m/s]
-  LineSlope chord;   ///< derivative by the chord, through its direction e
-  LineSlope point;   ///< derivative by the point, through its velocity and acceleration
-  // Only water that varies sets these two.
-  Matrix3 by_place;   ///< derivative by the point, through the water's motion at its place
-  Vector3 by_rise;    ///< derivative by the chord's z, through the wetted fraction
-};
-
-/// The relative velocity u and acceleration w, divided into ut, wt along the cable and un, wn across it.
-struct CrossFlow {
-  double ut, wt, speed;   ///< speed = |un|
-  Vector3 un, wn;
-  CrossFlow(const Vector3& e, const Vector3& u, const Vector3& w)
-      : ut(e.dot(u)), wt(e.dot(w)), un(u - ut * e), wn(w - wt * e) {
-    speed = un.norm();
-  }
-  Vector3 load(const CableInWater& c, const Vector3& e) const {
-    return c.normal_drag * speed * un + c.tangential_drag * std::abs(ut) * ut * e + c.added * wn;
-  }
-  Matrix3 M() const {
-    const double inverse = speed > 0 ? 1 / speed : 0;
-    return (inverse * un).lazyProduct(un.transpose());
-  }
-  /// scale times the load's derivative by e, where e changes direction but not length.
-  LineSlope by_axis(const CableInWater& c, const Vector3& e, double scale) const {
-    const double along = c.tangential_drag * std::abs(ut), across = c.normal_drag * speed;
-    const double turning = scale * ((along - across) * ut - c.added * wt);
-    return {turning, scale * ((2 * along - across) * un - c.added * wn) - turning * e, -scale * c.normal_drag * ut};
-  }
-  /// drag times the load's derivative by u, plus added times its derivative by w.
-  LineSlope by_flow(const CableInWater& c, const Vector3& e, double drag, double added) const {
-    const double across = drag * c.normal_drag * speed + added * c.added;
-    return {across, (2 * drag * c.tangential_drag * std::abs(ut) - across) * e, drag * c.normal_drag};
-  }
-};
-
-inline LineSlope sum(double v, const LineSlope& chord, double w, const LineSlope& point) {
-  return {v * chord.a + w * point.a, v * chord.q + w * point.q, v * chord.c + w * point.c};
-}
-
-/// The load on a dry cable.
-inline LineLoad no_line_load() {
-  const Vector3 zero = Vector3::Zero();
-  const LineSlope none{0, zero, 0};
-  return {zero, Matrix3::Zero(), none, none, Matrix3::Zero(), zero};
-}
-
-template <bool with_tangent>
-LineLoad wet_line_load(const CableInWater& c, const Vector3& e, double l, const CrossFlow& flow, const Shift& f) {
-  LineLoad load;
-  load.p = flow.load(c, e);
-  if constexpr (with_tangent) {
-    load.M = flow.M();
-    load.chord = flow.by_axis(c, e, f.x / l);
-    load.point = flow.by_flow(c, e, -f.v, -f.a);
-  }
-  return load;
-}
-
-/// f times the derivative, by the place, of the load that the flow exerts.
-inline Matrix3 by_place(const CableInWater& c, const Vector3& e, const CrossFlow& flow, const Matrix3& M,
-                        const environment::WaterMotion& water, double f) {
-  const LineSlope by_u = flow.by_flow(c, e, f, 0);
-  Matrix3 drag = by_u.c * M + e.lazyProduct(by_u.q.transpose());
-  drag.diagonal().array() += by_u.a;
-  const Vector3 along = f * c.added * (water.acceleration_slope.transpose() * e);
-  return drag.lazyProduct(water.velocity_slope) + f * (c.displaced + c.added) * water.acceleration_slope -
-         e.lazyProduct(along.transpose());
-}
 
 }   // namespace cablenet::elements
