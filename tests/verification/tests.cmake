@@ -4,6 +4,7 @@ cablenet_script_test(verification_stiff_pendulum verification/stiff_pendulum.py 
 cablenet_script_test(verification_frequencies verification/frequencies.py 120 verification)
 cablenet_script_test(verification_moving_points verification/moving_points.py 120 verification)
 cablenet_script_test(verification_manoeuvres verification/manoeuvres.py 120 verification)
+cablenet_script_test(verification_tow_manoeuvres verification/tow_manoeuvres.py 120 verification)
 cablenet_script_test(verification_biomapper_circle verification/biomapper_circle.py 120 verification)
 cablenet_script_test(verification_statements verification/statements.py 120 verification)
 cablenet_script_test(verification_point_forces verification/point_forces.py 120 verification)
