@@ -11,7 +11,7 @@
 /// With N1 = 1 - s and N2 = s, and integrals over the wetted part of 0 <= s <= 1, the load on node i is
 ///   on_i = L [ n_i p + g_i - e (e.g_i) ]
 ///   p = 1/2 rho Cdn d |un| un + 1/2 rho Cdt pi d |ut| ut e + rho A (g ez + w)
-///   g_i = rho A Ca (n_i w - sum_j m_ij a_j) -/+ q 1/2 rho Cdn d |un| turning_share (v_2 - v_1)
+///   g_i = rho A Ca (n_i w - sum_j m_ij a_j) +/- q 1/2 rho Cdn d |un| turning_share (v_2 - v_1)
 ///   n_i = integral of N_i,   m_ij = integral of N_i N_j,   q = m_22 - n_2^2/(n_1 + n_2)
 /// with e = d/l, u the water's velocity less the cable's, ut = e.u, un = u - e ut, and w the water's acceleration.  u
 /// and w are taken once, at the middle of the wetted part, s = n_2/(n_1 + n_2).  Other points see a flow across the
