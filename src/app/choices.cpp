@@ -30,7 +30,7 @@ scene::Time chosen_time(scene::Time time) {
   check(PetscOptionsGetReal(nullptr, nullptr, "-ts_alpha_radius", &radius, &given));
   if (given && !(radius >= 0 && radius <= 1))
     throw InputError(fmt::format("-ts_alpha_radius: {} is not allowed; expected a number from 0 to 1", radius));
-  if (given) solve::set_spectral_radius(time, radius);
+  if (given) time.spectral_radius = radius;
   refuse_other_steppers();
   return time;
 }

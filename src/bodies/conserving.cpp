@@ -74,12 +74,16 @@ struct Values {
   double gauge, excess;            ///< the gauge force gauge (|q1|^2 - 1) q_a/|q_a|^2 keeps |q1| at 1
 };
 
+/// (q1 - q0)/dt.  The stage's own rate differs where the stepper damps.
+Vector4 rate_of(const Start& start, double dt, const RotationState& stage) { return 2 / dt * (stage.y - start.y); }
+
 Values evaluate_values(const Properties& body, const Start& start, double dt, const RotationState& stage,
                        StageMotion& motion, StageForces& forces) {
   Values v;
+  const Vector4 rate = rate_of(start, dt, stage);
   v.q1 = 2 * stage.y - start.y;
   v.R1 = QuaternionRotation::matrix<double>(v.q1);
-  v.turn = mean_turn(dt, stage.y, stage.dy);
+  v.turn = mean_turn(dt, stage.y, rate);
   v.w1 = 2 * v.turn.arc.value * v.turn.w - start.w;
   v.momentum1 = body.inertia * v.w1;
   motion.position = 0.5 * (start.R + v.R1);
@@ -102,8 +106,8 @@ Values evaluate_values(const Properties& body, const Start& start, double dt, co
   const Values v = evaluate_values(body, start, dt, stage, motion, forces);
   if (shift == nullptr) return;
   const double by_square = 1 / stage.y.squaredNorm(), by_end_square = 2 / v.q1.squaredNorm();
-  Matrix34 by_w = shift->v * v.turn.rates - 2 * by_square * v.turn.w * stage.y.transpose();
-  by_w -= 2 * by_square * QuaternionRotation::E<double>(stage.dy);
+  Matrix34 by_w = 2 / dt * v.turn.rates - 2 * by_square * v.turn.w * stage.y.transpose();
+  by_w -= 2 * by_square * QuaternionRotation::E<double>(rate_of(start, dt, stage));
   const Eigen::RowVector4d by_u = 2 * dt * dt * v.turn.w.transpose() * by_w;
   const Matrix34 by_w1 = 2 / dt * (v.turn.arc.value * by_w + v.turn.arc.by * v.turn.w * by_u);
   const Matrix34 by_momentum = (v.R1 * body.inertia) * by_w1;

@@ -13,17 +13,19 @@ Vector3 cable_force(const CableMaterial& m, double L, const Chord& c) {
 }
 
 ForceTangent cable_force_tangent(const CableMaterial& m, double L, const Chord& c, Tangent kind) {
-  return instant_tangent<true>(m, L, stretch(c.d), c.w, cable_tension(m, L, c), kind);
+  const double T = cable_tension(m, L, c);
+  return instant_tangent<true>(m, L, stretch(c.d), c.w, T, T, kind);
 }
 
 Vector3 energy_momentum_force(const CableMaterial& m, double L, const ChordStep& s) {
   const Stretch s0 = stretch(s.d0), s1 = stretch(s.d1);
-  return energy_momentum_force(step_tension<true>(m, L, s0.l, s1.l, s.dt, s.xi), s0, s1);
+  return energy_momentum_force(step_tension<true>(m, L, {s0.l, s1.l, s.dt, s.xi, s.due}), s0, s1);
 }
 
 Matrix3 energy_momentum_tangent(const CableMaterial& m, double L, const ChordStep& s, Tangent kind) {
   const Stretch s0 = stretch(s.d0), s1 = stretch(s.d1);
-  return energy_momentum_tangent(step_tension<true>(m, L, s0.l, s1.l, s.dt, s.xi), s0, s1, kind);
+  const TensionSlope tension = step_tension<true>(m, L, {s0.l, s1.l, s.dt, s.xi, s.due});
+  return energy_momentum_tangent(tension.slope, tension.T, s0, s1, kind);
 }
 
 double cable_strain_energy(const CableMaterial& m, double L, const Vector3& d) {

@@ -12,7 +12,8 @@ namespace cablenet::scene {
 namespace {
 
 constexpr double most_steps = 2147483647;
-constexpr double default_dissipation = 0.05;
+/// Of energy_momentum, and the radius of the others.
+constexpr double default_dissipation = 0.025, default_radius = 0.8;
 
 struct AdaptiveKeys {
   double tolerance = 0;
@@ -44,24 +45,18 @@ const Table<TimeKeys> time_table(
      {"adaptive", later(section_form(adaptive_table)), absent("all steps are equal"),
       "Lets the step follow the motion.",
       [](Time& time, const Value& value) { time.tolerance = read_tolerance(value); }},
-     {"scheme", choice<Scheme>(), absent("energy_momentum, or generalized_alpha where spectral_radius is given"),
-      "The time stepping scheme.", &TimeKeys::given_scheme},
-     {"spectral_radius", number("", between(0, 1)), absent("0.8 where the scheme has one"),
-      "How much of a motion too fast for the step is left after it: 0 damps most, 1 nothing.",
+     {"scheme", choice<Scheme>(), absent("energy_momentum"), "The time stepping scheme.", &TimeKeys::given_scheme},
+     {"spectral_radius", number("", between(0, 1)), absent("1 with energy_momentum, 0.8 with the others"),
+      "How much of a vibration that is too fast for the step is left after a step: 0 damps most, 1 nothing.",
       &TimeKeys::given_radius}});
 
-void settle_scheme(const Section& section, TimeKeys& time) {
-  const bool has_radius = time.given_radius.has_value();
-  time.scheme = time.given_scheme.value_or(has_radius ? Scheme::generalized_alpha : Scheme::energy_momentum);
-  if (time.scheme == Scheme::energy_momentum) {
-    if (has_radius)
-      section.find("spectral_radius")
-          ->fail("energy_momentum has none. Remove spectral_radius, or choose scheme: generalized_alpha.");
-    time.axial_dissipation = time.given_scheme ? 0 : default_dissipation;
-    time.spectral_radius = 1;
-  } else {
-    time.spectral_radius = time.given_radius.value_or(0.8);
-  }
+/// A scheme that is named, or a radius of 1, asks that nothing be removed.
+void settle_scheme(TimeKeys& time) {
+  const bool is_default = !time.given_scheme && !time.given_radius;
+  time.scheme = time.given_scheme.value_or(Scheme::energy_momentum);
+  const bool conserves = time.scheme == Scheme::energy_momentum;
+  time.spectral_radius = time.given_radius.value_or(conserves ? 1 : default_radius);
+  time.axial_dissipation = conserves && (is_default || time.spectral_radius < 1) ? default_dissipation : 0;
 }
 
 void check_steps(const Section& section, const Time& time) {
@@ -131,7 +126,7 @@ Time read_time(const Value& value) {
   TimeKeys time;
   const Section section = read_rows(value, time_table, time);
   check_steps(section, time);
-  settle_scheme(section, time);
+  settle_scheme(time);
   return time;
 }
 

@@ -14,6 +14,12 @@ using petsc::check;
 /// Before PETSc 3.22 TSALPHA2's estimate of the first acceleration is twice what it should be.
 constexpr double start_factor = PETSC_VERSION_LT(3, 22, 0) ? 0.5 : 1.0;
 
+/// Over which a step's error can count.  [s]
+double memory_of(const partition::LocalNetwork& network, const scene::Time& time) {
+  constexpr double part = 0.1;
+  return network.surroundings.fluid ? 0 : part * (time.end - time.start);
+}
+
 /// So many halvings bring an adaptive step below any that is of use.
 constexpr PetscInt most_rejections = 40;
 
@@ -30,8 +36,9 @@ void archive_vector(Archive& archive, const char* name, Vec vector) {
 
 AlphaStepper::AlphaStepper(const system::Assembler& assembler, StageEquations& equations, const scene::Time& time,
                            long most_steps, const char* prefix)
-    : network_(assembler.network()), equations_(equations) {
-  for (auto* vector : {&x_, &v_, &a_, &x0_, &v0_, &start_acceleration_}) *vector = assembler.make_vector();
+    : network_(assembler.network()), equations_(equations), local_error_(memory_of(assembler.network(), time)) {
+  for (auto* vector : {&x_, &v_, &a_, &x0_, &v0_, &start_acceleration_, &own_a_, &expected_a_})
+    *vector = assembler.make_vector();
   assembler.fill_initial(x_, v_);
   check(TSCreate(assembler.communicator(), stepper_.out()));
   configure(time, most_steps, prefix);
@@ -39,9 +46,11 @@ AlphaStepper::AlphaStepper(const system::Assembler& assembler, StageEquations& e
   check(SNESSetComputeInitialGuess(snes_, begin_solve, this));
   equations_.configure(snes_);
   check(TSSetFromOptions(stepper_));
+  keep_weights(time, prefix);
   equations_.adopt_options();
   check(TSAdaptGetScaleSolveFailed(adapt_, &failed_scale_));
-  keeps_mean_acceleration_ = read_step().alternates();
+  keeps_mean_acceleration_ = read_step().is_centred();
+  keeps_own_acceleration_ = keeps_mean_acceleration_ && read_step().alpha_m != 0.5;
   shows_while_solving_ = petsc::shows_while_solving();
 }
 
@@ -107,14 +116,30 @@ void AlphaStepper::control_errors(std::function<bool(double, double)> accepts, d
 }
 
 void AlphaStepper::restart() {
-  check(VecCopy(a_, start_acceleration_));
+  check(VecCopy(a_, own_a_));
+  check(VecCopy(a_, expected_a_));
+  restart_with(own_a_);
+}
+
+void AlphaStepper::restart_with(Vec acceleration) {
+  check(VecCopy(acceleration, start_acceleration_));
   check(TSRestartStep(stepper_));
+}
+
+/// PETSc takes -ts_alpha_radius for Chung and Hulbert's weights, whatever the scheme.
+void AlphaStepper::keep_weights(const scene::Time& time, const char* prefix) {
+  const auto names = {"-ts_alpha_alpha_m", "-ts_alpha_alpha_f", "-ts_alpha_gamma", "-ts_alpha_beta"};
+  const auto is_given = [&](const char* name) { return petsc::has_option(name, prefix); };
+  if (!is_given("-ts_alpha_radius") || std::any_of(names.begin(), names.end(), is_given)) return;
+  const AlphaWeights weights = weights_of(time);
+  check(TSAlpha2SetParams(stepper_, weights.alpha_m, weights.alpha_f, weights.gamma, weights.beta));
 }
 
 void AlphaStepper::begin(double t, double dt) {
   t_ = t;
   dt_ = dt;
   attempts_ = 0;
+  repeats_ = 0;
   if (!keeps_mean_acceleration_) check(VecCopy(x_, x0_));
   check(VecCopy(v_, v0_));
   check(TSSetTime(stepper_, t));
@@ -135,8 +160,8 @@ AlphaStepper::Outcome AlphaStepper::attempt() {
   check(TSGetKSPIterations(stepper_, &linear));
   check(TSGetTime(stepper_, &reached));
   check(TSGetTimeStep(stepper_, &next));
-  const bool retried = rejected > rejected_;
-  const Outcome outcome{reason >= 0,      retried,         retried ? reached - t_ : dt_, next, rejected - rejected_,
+  const long shortened = rejected - rejected_ - repeats_;
+  const Outcome outcome{reason >= 0,      shortened > 0,   shortened > 0 ? reached - t_ : dt_, next, shortened,
                         newton - newton_, linear - linear_};
   rejected_ = rejected;
   newton_ = newton;
@@ -144,12 +169,13 @@ AlphaStepper::Outcome AlphaStepper::attempt() {
   return outcome;
 }
 
-/// TSALPHA2 keeps its acceleration to itself, so it is computed again by the same formula.  At spectral radius 1 it
-/// alternates about the truth and the step's mean is kept instead.
+/// TSALPHA2 keeps its acceleration to itself, so it is computed again by the same formula.  Where it alternates about
+/// the truth, the step's mean is kept as well.
 void AlphaStepper::accept(double taken) {
   local_error_.accept();
   if (keeps_mean_acceleration_) {
-    check(VecAXPBYPCZ(a_, 1 / taken, -1 / taken, 0, v_, v0_));
+    mean_acceleration_.advance(taken, v0_, v_, a_, expected_a_);
+    if (keeps_own_acceleration_) check(VecAXPBY(own_a_, 1 / step_.alpha_m, 1 - 1 / step_.alpha_m, a_));
     return;
   }
   const double beta = step_.beta, by_dt2 = 1 / (beta * taken * taken);
@@ -165,8 +191,13 @@ void AlphaStepper::archive(Archive& archive) {
   archive_vector(archive, "x", x_);
   archive_vector(archive, "v", v_);
   archive_vector(archive, "a", a_);
+  if (keeps_own_acceleration_) archive_vector(archive, "own a", own_a_);
+  if (keeps_mean_acceleration_) {
+    archive_vector(archive, "expected a", expected_a_);
+    mean_acceleration_.archive(archive);
+  }
   local_error_.archive(archive);
-  restart();
+  restart_with(keeps_own_acceleration_ ? own_a_ : a_);
 }
 
 AlphaStep AlphaStepper::read_step() const {
@@ -203,7 +234,7 @@ PetscErrorCode AlphaStepper::begin_solve(SNES, Vec x, void* self) noexcept {
   auto& stepper = *static_cast<AlphaStepper*>(self);
   stepper.step_ = stepper.read_step();
   // The stepper's own vectors stay at the step's start until it is accepted.
-  stepper.equations_.begin_solve(stepper.step_, {stepper.x_, stepper.v_, stepper.a_}, x);
+  stepper.equations_.begin_solve(stepper.step_, stepper.step_start(), x);
   PetscFunctionReturn(petsc::success);
 }
 
@@ -211,9 +242,12 @@ PetscErrorCode AlphaStepper::begin_stage(TS ts, PetscReal) noexcept {
   PetscFunctionBeginUser;
   AlphaStepper* stepper = nullptr;
   PetscCall(TSGetApplicationContext(ts, &stepper));
-  if (stepper->accepts_) PetscCall(TSAdaptSetScaleSolveFailed(stepper->adapt_, stepper->failed_scale_));
   if (!stepper->read_step().is_start()) ++stepper->attempts_;
-  stepper->equations_.begin_attempt(stepper->attempts_ > 1);
+  // The second attempt is made with another tangent, the later ones with shorter steps.
+  const bool is_first = stepper->attempts_ <= 1;
+  if (stepper->attempts_ == 2) stepper->repeats_ = 1;
+  PetscCall(TSAdaptSetScaleSolveFailed(stepper->adapt_, is_first ? 1 : stepper->failed_scale_));
+  stepper->equations_.begin_attempt(stepper->attempts_);
   PetscFunctionReturn(petsc::success);
 }
 
@@ -221,7 +255,7 @@ bool AlphaStepper::accepts_error() {
   if (step_.is_start()) return true;
   Vec end = nullptr;
   check(SNESGetSolution(snes_, &end));
-  error_ = local_error_.estimate(step_, network_, {x_, v_, a_}, end);
+  error_ = local_error_.estimate(step_, network_, step_start(), mean_acceleration_.growth(), end);
   return accepts_(error_, step_.dt);
 }
 

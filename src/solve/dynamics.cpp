@@ -12,8 +12,8 @@ namespace {
 /// A run fails where its steps have shrunk to this part of the step that was asked for.
 constexpr double smallest_step = 1e-10;
 
-/// After so many steps the largest coordinate, which rounding depends on, is looked up again.
-constexpr long steps_between_norms = 64;
+/// After so many steps the forces and the largest coordinate are measured again.  Newton's tolerances depend on them.
+constexpr long steps_between_measures = 64;
 
 }   // namespace
 
@@ -73,8 +73,8 @@ bool Dynamics::is_at_an_end(const Observers& observers) {
 
 bool Dynamics::step(double dt) {
   const double t = schedule_.time();
+  newton_.begin_step(t, stepper_.x(), stepper_.v(), counts_.steps % steps_between_measures == 0);
   assembler_.begin_step(t, stepper_.x(), stepper_.v());
-  newton_.begin_step(t, stepper_.x(), schedule_.at_output() || counts_.steps % steps_between_norms == 0);
   stepper_.begin(t, dt);
   const AlphaStepper::Outcome outcome = stepper_.attempt();
   newton_.end_step(outcome.newton);

@@ -15,10 +15,20 @@ namespace {
 
 using petsc::check;
 
-/// Newton's tolerance over the forces at the start.
+/// Newton's tolerance over the forces.
 constexpr double relative_force_tolerance = 1e-12;
 
-constexpr PetscInt most_iterations = 25;
+/// A solve goes on as long as the residual has been halved within the last `patience` corrections.
+constexpr PetscInt patience = 12, most_iterations = 200;
+
+/// Two residuals are taken for the same that differ by this part.
+constexpr double same_residual = 0.1;
+
+/// The first attempt that searches along its corrections.
+constexpr int first_search = 4;
+
+/// Over the rounding of positions: a correction below this is none.
+constexpr double smallest_correction = 4;
 
 /// What SNESSetLagJacobian calls never to compute a tangent.
 constexpr PetscInt never = -1;
@@ -57,8 +67,11 @@ bool is_of_type(PetscObject object, const char* type) {
 
 }   // namespace
 
-Newton::Newton(system::Assembler& assembler)
-    : assembler_(assembler), scales_(assembler.force_scales()), tangent_(assembler.make_tangent()) {}
+Newton::Newton(system::Assembler& assembler) : assembler_(assembler), tangent_(assembler.make_tangent()) {
+  const system::Vector x = assembler.make_vector(), v = assembler.make_vector();
+  assembler.fill_initial(x, v);
+  scales_ = assembler.force_scales(0, x, v);
+}
 
 void Newton::configure(SNES snes) {
   snes_ = snes;
@@ -136,28 +149,34 @@ void Newton::solve_acceleration(double t, Vec x, Vec v, Vec a) {
                     KSPConvergedReasons[reason]));
 }
 
-void Newton::begin_step(double t, Vec x, bool measures) {
+void Newton::begin_step(double t, Vec x, Vec v, bool measures) {
   t_ = t;
-  PetscReal largest = largest_coordinate_;
-  if (measures) check(VecNorm(x, NORM_INFINITY, &largest));
+  if (!measures) return;
+  PetscReal largest = 0;
+  check(VecNorm(x, NORM_INFINITY, &largest));
+  scales_ = assembler_.force_scales(t, x, v);
+  scale_tolerance();
   // Bodies have sines and cosines of angles.  However small an angle is, they are rounded as numbers of size 1.
   largest_coordinate_ = assembler_.network().blocks.uniform() ? largest : std::max<double>(largest, 1);
 }
 
-void Newton::begin_attempt(bool is_retry) {
+void Newton::begin_attempt(int attempt) {
   outside_element_ = outside_body_ = -1;
-  if (is_retry != is_retry_) choose_line_search(is_retry);
-  is_retry_ = is_retry;
+  if (attempt >= first_search || searches_) choose_line_search(attempt >= first_search);
+  searches_ = attempt >= first_search;
+  is_retry_ = attempt > 1;
 }
 
 void Newton::begin_solve(const AlphaStep& step, const StepStart& start, Vec guess) {
   step_ = step;
   evaluations_ = 0;
+  tangents_ = 0;
+  best_at_ = 0;
   tangent_at_ = {};
   reuse_.begin_solve(step.is_start() ? -step.dt : step.dt, is_retry_);
   if (step.is_start()) return;
   check(VecWAXPY(guess, step.dt, start.v, start.x));
-  check(VecAXPY(guess, step.dt * step.dt / 2, start.a));
+  check(VecAXPY(guess, step.dt * step.dt / 2, start.expected_a));
 }
 
 void Newton::residual(Vec x, Vec v, Vec a, Vec r) {
@@ -166,9 +185,10 @@ void Newton::residual(Vec x, Vec v, Vec a, Vec r) {
   a_ = a;
   // Newton's method needs the tangent after each residual but the last: one pass makes both where another correction
   // is expected.
-  const bool wants_tangent = combines_ && !is_retry_ && evaluations_++ < expected_iterations_;
+  const bool wants_tangent = combines_ && !is_retry_ && evaluations_ <= expected_iterations_;
   const system::TangentRequest request = tangent_request();
-  if (wants_tangent) tangent_at_ = petsc::state_of(x);
+  ++evaluations_;
+  if (wants_tangent) tangent_at_ = petsc::state_of(x), ++tangents_;
   if (assembler_.residual(stage(), x, v, a, r, wants_tangent ? &request : nullptr)) return;
   outside_element_ = assembler_.coincident_element();
   outside_body_ = assembler_.outside_body();
@@ -188,15 +208,59 @@ void Newton::tangent() {
     tangent_.set_identity(step_.shift_a());
     return;
   }
-  if (petsc::state_of(x_) != tangent_at_) assembler_.tangent(stage(), x_, v_, a_, tangent_request());
+  if (petsc::state_of(x_) != tangent_at_) {
+    assembler_.tangent(stage(), x_, v_, a_, tangent_request());
+    ++tangents_;
+  }
   tangent_.publish();
   tangent_at_ = {};
+}
+
+system::TangentRequest Newton::tangent_request() {
+  return {.matrix = tangent_, .shift = {1, step_.shift_v(), step_.shift_a()}, .turning = turning()};
+}
+
+/// A kept tangent says nothing of the tension at a later chord.  Where the step has failed before, compression turns
+/// nothing: it would make the tangent indefinite.
+system::TurningRule Newton::turning() const {
+  if (!reuse_.computes_always() && !is_retry_) return {};
+  system::TurningRule rule{.is_predicted = true, .is_first = tangents_ == 0};
+  if (is_retry_ || cycles_) rule.least = 0;
+  return rule;
+}
+
+bool Newton::makes_progress(PetscInt iteration, double norm) {
+  if (iteration == 0 || norm < 0.5 * best_norm_) {
+    best_norm_ = norm;
+    best_at_ = iteration;
+  }
+  return iteration - best_at_ < patience;
+}
+
+/// An element that goes slack and taut by turns sends Newton's method from one residual to another and back.  Half
+/// corrections end that.
+void Newton::break_cycle(PetscInt iteration, double norm) {
+  const bool returns = iteration >= 2 && std::abs(norm - norms_[1]) < same_residual * norm;
+  norms_ = {norm, norms_[0]};
+  cycles_ = iteration > 0 && (cycles_ || returns);
+  const bool shortens = returns && !is_shortened_;
+  if (shortens == is_shortened_ || user_line_search_) return;
+  SNESLineSearch search = nullptr;
+  check(SNESGetLineSearch(snes_, &search));
+  check(SNESLineSearchSetDamping(search, shortens ? 0.5 : 1));
+  is_shortened_ = shortens;
+}
+
+/// Whatever the residual, which such a correction cannot bring down.
+bool Newton::is_at_positions_rounding(double correction, double positions) const {
+  const bool is_full = !searches_ && !user_line_search_ && !is_shortened_;
+  return is_full && correction <= smallest_correction * std::numeric_limits<double>::epsilon() * positions;
 }
 
 bool Newton::is_at_rounding(PetscInt iteration, double norm) {
   const double noise = scales_.rounding(largest_coordinate_, step_.shift_a()) / step_.alpha_f;
   // A careful search cannot go below rounding, and would call that a failure.
-  const bool careful = is_retry_ || (user_line_search_ && iteration > 0);
+  const bool careful = searches_ || (user_line_search_ && iteration > 0);
   const bool settled =
       convergence_.is_at_rounding(static_cast<int>(iteration), norm, noise, careful, reuse_.was_kept());
   if (iteration > 0) reuse_.note_correction(static_cast<int>(iteration), convergence_.contraction());
@@ -208,8 +272,12 @@ SNESConvergedReason Newton::test(PetscInt iteration, PetscReal xnorm, PetscReal 
   SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
   check(SNESConvergedDefault(snes_, iteration, xnorm, snorm, fnorm, &reason, nullptr));
   const bool linear_and_solved = step_.is_start() && iteration >= 1;
-  const bool settled = !step_.is_start() && is_at_rounding(iteration, fnorm);
+  bool settled = !step_.is_start() && is_at_rounding(iteration, fnorm);
+  if (iteration > 0 && !reuse_.was_kept()) settled = settled || is_at_positions_rounding(snorm, xnorm);
   if (reason == SNES_CONVERGED_ITERATING && (settled || linear_and_solved)) reason = SNES_CONVERGED_FNORM_ABS;
+  break_cycle(iteration, fnorm);
+  const bool has_budget = makes_progress(iteration, fnorm);
+  if (reason == SNES_CONVERGED_ITERATING && !has_budget) reason = SNES_DIVERGED_MAX_IT;
   return reason;
 }
 

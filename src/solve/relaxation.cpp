@@ -46,7 +46,8 @@ bool relax(const system::Assembler& assembler, double t, const Vector3& velocity
   scene::Time time;
   time.end = duration;
   time.step = first_step * duration;
-  set_spectral_radius(time, 0);
+  time.scheme = scene::Scheme::generalized_alpha;
+  time.spectral_radius = 0;
   time.tolerance = relaxation_tolerance(assembler.network());
   system::Assembler settling(in_frame(assembler, t, velocity, duration), force_rule_of(time), assembler.communicator());
   StaticForces(settling, 0, Vector3::Zero()).start_from(x);

@@ -76,11 +76,11 @@ Statics::Statics(system::Assembler& assembler, double t, const Vector3& velocity
       velocity_(velocity),
       forces_(assembler, t, velocity),
       is_in_flow_(forces_.is_in_flow()),
-      scales_(assembler.force_scales()),
       tangent_(assembler.make_tangent()),
       monitors_(petsc::flag_option(assembler.communicator(), nullptr, statics_monitor_option.text)) {
   for (auto* vector : {&x_, &drawn_, &r_, &step_, &trial_}) *vector = assembler_.make_vector();
   assembler_.fill_initial(drawn_, r_);
+  scales_ = assembler_.force_scales(t, drawn_, r_);
   for (const Vector3& position : assembler_.network().position)
     largest_drawn_coordinate_ = std::max(largest_drawn_coordinate_, position.lpNorm<Eigen::Infinity>());
   MPI_Allreduce(MPI_IN_PLACE, &largest_drawn_coordinate_, 1, MPI_DOUBLE, MPI_MAX, assembler_.communicator());

@@ -10,7 +10,7 @@ namespace {
 constexpr double rounding = 1e-6;   // of a step
 
 /// A step is doubled if its error can then be expected to be at most this part of the tolerance.
-constexpr double safety = 0.5;
+constexpr double safety = 0.7;
 
 /// So many steps in a row could have been doubled before one is.  If a step grew at once, it might have to shrink at
 /// once.

@@ -124,8 +124,8 @@ bool Assembler::evaluate_terms(const Situation& situation, Vec x, Vec v, Vec a, 
   }
   if (request != nullptr) {
     evaluation.has_tangent = true;
-    evaluation.target = {request->matrix.open(), evaluation.target.elements, request->shift, request->holds_water,
-                         request->steadiness};
+    evaluation.target = {request->matrix.open(), evaluation.target.elements, request->shift,
+                         request->holds_water,   request->steadiness,        request->turning};
     parts_->bodies().clear_blocks(evaluation.target);
   }
   for_each_term(parts_->terms, [&](auto& term) { term.add(evaluation); });
@@ -215,9 +215,11 @@ Vector3 Assembler::node_force(LocalNode node) const {
   return sum;
 }
 
-ForceScales Assembler::force_scales() {
+/// Accelerations have no part in it.
+ForceScales Assembler::force_scales(double t, Vec x, Vec v) {
+  observe(t, x, v, v);
   ForceSums sums;
-  for_each_term(parts_->terms, [&](const auto& term) { term.add_scales(sums); });
+  for_each_term(parts_->terms, [&](const auto& term) { term.add_scales(state_, sums); });
   return ForceScales::of(sums, communicator_);
 }
 

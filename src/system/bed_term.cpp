@@ -49,7 +49,7 @@ void BedTerm::add(Evaluation& evaluation) {
   add_to_ends(evaluation, kernel, evaluation.target.shift);
 }
 
-void BedTerm::add_scales(ForceSums& sums) const {
+void BedTerm::add_scales(const LocalState&, ForceSums& sums) const {
   const auto& bed = network_.surroundings.bed;
   if (!bed) return;
   for (const partition::LocalElement& e : own_elements())

@@ -11,7 +11,7 @@ public:
   bool has_rates() const { return network_.surroundings.bed.has_value(); }
   bool is_symmetric(const ForceRule&) const { return !has_rates(); }
   void add(Evaluation& evaluation);
-  void add_scales(ForceSums& sums) const;
+  void add_scales(const LocalState&, ForceSums& sums) const;
   Vector3 end_force(const LocalState& state, int element, std::size_t end) const;
 };
 

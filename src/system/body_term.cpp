@@ -185,11 +185,11 @@ void BodyTerm::add_energy(const LocalState& state, Energies& sum) const {
   }
 }
 
-void BodyTerm::add_scales(ForceSums& sums) const {
+void BodyTerm::add_scales(const LocalState& state, ForceSums& sums) const {
   for (int b = 0; b < network_.own_bodies; ++b) {
     const partition::LocalBody& body = network_.bodies[at(b)];
     const Matrix3& inertia = body.properties.inertia;
-    const Vector3 w = bodies::angular_velocity(body.properties.rotation, body.start);
+    const Vector3& w = state.bodies[at(b)].w;
     sums.load += square(2 * w.norm() * (inertia * w).norm()) + square(2 * body.properties.torque.norm());
     sums.mass += square(4 * inertia.norm());
   }

@@ -38,7 +38,7 @@ public:
   void add(Evaluation& evaluation);
   void end_step(const StepEnd& end);
   void add_energy(const LocalState& state, Energies& sum) const;
-  void add_scales(ForceSums& sums) const;
+  void add_scales(const LocalState& state, ForceSums& sums) const;
   void archive(Archive& archive) { archive.item("work of torques", work_); }
 
 private:

@@ -56,6 +56,7 @@ struct CableKernel {
   const partition::LocalNetwork& network;
   const Law& law;
   const typename Law::Start* starts;
+  elements::Turning turning;   ///< of the first element
 
   /// a + beta v of a node; the weight joins in as an acceleration.
   template <class Nodes, class Key>
@@ -66,12 +67,17 @@ struct CableKernel {
     return q;
   }
 
+  elements::Turning turning_of(std::size_t i) const {
+    return {turning.is_predicted, turning.last == nullptr ? nullptr : turning.last + i, turning.now + i, turning.least};
+  }
+
   template <bool with_residual, bool with_tangent, class Nodes>
   bool evaluate(std::size_t i, const partition::LocalElement& e, const Nodes& nodes, const Shift& shift,
                 Response& out) const {
     const elements::CableMaterial& material = network.materials[at(e.material)];
     const auto n1 = nodes.key(e, 0), n2 = nodes.key(e, 1);
-    elements::ElementStage stage{material, e.length, nodes.x(n2) - nodes.x(n1), Vector3::Zero(), shift.v};
+    elements::ElementStage stage{material,        e.length, nodes.x(n2) - nodes.x(n1),
+                                 Vector3::Zero(), shift.v,  turning_of(i)};
     if constexpr (Law::general) stage.w = nodes.v(n2) - nodes.v(n1);
     Vector3 f;
     if (!law.template evaluate<with_tangent>(starts[i], stage, f, out.K)) return false;
@@ -109,31 +115,40 @@ std::vector<typename Law::Start>& CableTerm::starts() {
 }
 
 void CableTerm::begin_step(Evaluation& evaluation) {
-  const auto record = [&]<class Law>(const Law&) {
+  const auto record = [&]<class Law>(const Law& law) {
     if constexpr (!std::is_same_v<typename Law::Start, elements::NoStart>) {
       auto& starts = this->starts<Law>();
       const auto visit = [&](Range range, const auto& nodes) {
         for (std::size_t i = at(range.first); i < at(range.last); ++i) {
           const partition::LocalElement& e = network_.elements[i];
           const auto n1 = nodes.key(e, 0), n2 = nodes.key(e, 1);
-          Vector3 w = Vector3::Zero();
-          if constexpr (Law::general) w = nodes.v(n2) - nodes.v(n1);
-          starts[i] = Law::start(network_.materials[at(e.material)], e.length, nodes.x(n2) - nodes.x(n1), w);
+          law.begin(
+              {network_.materials[at(e.material)], e.length, nodes.x(n2) - nodes.x(n1), nodes.v(n2) - nodes.v(n1)},
+              starts[i]);
         }
       };
       visit(Range{0, network_.inner_elements}, InnerNodes{evaluation.data});
       visit(Range{network_.inner_elements, static_cast<int>(network_.elements.size())}, AnyNodes{evaluation.data});
     }
   };
-  std::visit(record, choose_law(evaluation.rule, evaluation.situation, is_general_));
+  std::visit(record, choose_law(evaluation.rule, evaluation.situation, is_general_, last_dt_));
+}
+
+/// The carried kernel asks twice, so that what is read and what is written are two arrays.
+elements::Turning CableTerm::turning(const Evaluation& evaluation) {
+  const TurningRule& rule = evaluation.target.turning;
+  if (!evaluation.has_tangent || !rule.is_predicted) return {};
+  directions_[0].swap(directions_[1]);
+  for (auto& array : directions_) array.resize(network_.elements.size());
+  return {true, rule.is_first ? nullptr : directions_[0].data(), directions_[1].data(), rule.least};
 }
 
 void CableTerm::add(Evaluation& evaluation) {
   const auto add_by = [&]<class Law>(const Law& law) {
-    const CableKernel<Law> kernel{network_, law, starts<Law>().data()};
+    const CableKernel<Law> kernel{network_, law, starts<Law>().data(), turning(evaluation)};
     add_to_elements(evaluation, kernel, evaluation.target.shift);
   };
-  std::visit(add_by, choose_law(evaluation.rule, evaluation.situation, is_general_));
+  std::visit(add_by, choose_law(evaluation.rule, evaluation.situation, is_general_, last_dt_));
 }
 
 void CableTerm::add_energy(const LocalState& state, Energies& sum) const {
@@ -147,15 +162,23 @@ void CableTerm::add_energy(const LocalState& state, Energies& sum) const {
   }
 }
 
-/// From the drawn start.
-void CableTerm::add_scales(ForceSums& sums) const {
+/// The change of elongation in a step is that from the step's start before.
+void CableTerm::archive(Archive& archive) {
+  auto& reached = std::get<std::vector<elements::ReachedStart>>(starts_);
+  std::vector<double> lengths;
+  for (const auto& start : reached) lengths.push_back(start.s.l);
+  archive.item("cables.last_dt", last_dt_);
+  archive.item("cables.lengths", lengths);
+  reached.resize(lengths.size());
+  for (std::size_t i = 0; i < reached.size(); ++i) reached[i].s.l = lengths[i];
+}
+
+void CableTerm::add_scales(const LocalState& state, ForceSums& sums) const {
   for (const partition::LocalElement& e : own_elements()) {
     const elements::CableMaterial& material = network_.materials[at(e.material)];
     const double m = material.mass_per_length * e.length;
-    const Vector3 &v1 = network_.velocity[e.node[0]], &v2 = network_.velocity[e.node[1]];
-    const double speed = std::max(v1.norm(), v2.norm());
-    const Vector3 d = network_.position[e.node[1]] - network_.position[e.node[0]];
-    const double tension = elements::cable_tension(material, e.length, {d, v2 - v1});
+    const double speed = std::max(state.velocity(e.node[0]).norm(), state.velocity(e.node[1]).norm());
+    const double tension = elements::cable_tension(material, e.length, state.chord(e));
     sums.load += square(tension) + square(m * network_.gravity) + square(m * speed * speed / e.length);
     sums.stiffness += square(2 * material.axial_stiffness / e.length);
     sums.mass += square(m);

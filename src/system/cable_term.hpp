@@ -20,18 +20,25 @@ public:
   void begin_step(Evaluation& evaluation);
   void add(Evaluation& evaluation);
   void add_energy(const LocalState& state, Energies& sum) const;
-  void add_scales(ForceSums& sums) const;
+  void add_scales(const LocalState& state, ForceSums& sums) const;
+  void end_step(const StepEnd& end) { last_dt_ = end.stage.dt; }
   Vector3 end_force(const LocalState& state, int element, std::size_t end) const;
+  void archive(Archive& archive);
 
 private:
   template <class Law>
   std::vector<typename Law::Start>& starts();
+  elements::Turning turning(const Evaluation& evaluation);
 
   bool is_general_;   ///< Some material is damped, or goes slack.
   /// What the laws keep of each element at the step's start: one array per kind.  Only the law in use has elements.
   std::tuple<std::vector<elements::NoStart>, std::vector<elements::AveragedStart<false>>,
-             std::vector<elements::AveragedStart<true>>, std::vector<elements::Stretch>>
+             std::vector<elements::AveragedStart<true>>, std::vector<elements::ReachedStart>,
+             std::vector<elements::Stretch>>
       starts_;
+  double last_dt_ = 0;   ///< of the last accepted step [s]; 0: there was none
+  /// The chords' directions at the last tangent, and where those at the present one are kept.
+  std::array<std::vector<Vector3>, 2> directions_;
 };
 
 }   // namespace cablenet::system

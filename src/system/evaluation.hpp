@@ -37,6 +37,7 @@ struct TangentTarget {
   Shift shift;
   bool holds_water = false;
   double steadiness = 0;   ///< as in TangentRequest
+  TurningRule turning{};
 };
 
 /// What terms are told of an evaluation, and where they say what failed.

@@ -1,5 +1,7 @@
 #include "law_choice.hpp"
 
+#include <algorithm>
+
 namespace cablenet::system {
 namespace {
 
@@ -7,10 +9,13 @@ using elements::AveragedLaw, elements::EnergyMomentumLaw, elements::StageLaw;
 using scene::Scheme;
 
 template <bool general>
-LawChoice law_of_step(const ForceRule& rule, const Stage& stage) {
+LawChoice law_of_step(const ForceRule& rule, const Stage& stage, double last_dt) {
+  const bool is_first = last_dt == 0;
+  // A longer step is not to expect more: the scheme's proof needs that.
+  const double pace = is_first ? stage.dt : std::min(1.0, stage.dt / last_dt);
   switch (rule.scheme) {
     case Scheme::energy_momentum:
-      return EnergyMomentumLaw<general>{rule.tangent, stage.alpha_f, stage.dt, rule.axial_dissipation};
+      return EnergyMomentumLaw<general>{rule.tangent, stage.alpha_f, stage.dt, rule.axial_dissipation, pace, is_first};
     case Scheme::generalized_alpha:
       return AveragedLaw<general>{{rule.tangent}, stage.alpha_f};
     case Scheme::plain:
@@ -30,10 +35,11 @@ bool ForceRule::conserves(const Stage& stage, bool in_water) const {
   return scheme == Scheme::energy_momentum && stage.dt > 0 && stage.alpha_f == 0.5 && !in_water;
 }
 
-LawChoice choose_law(const ForceRule& rule, const Situation& situation, bool is_general) {
+LawChoice choose_law(const ForceRule& rule, const Situation& situation, bool is_general, double last_dt) {
   switch (situation.internal) {
     case InternalForce::of_step:
-      return is_general ? law_of_step<true>(rule, situation.stage) : law_of_step<false>(rule, situation.stage);
+      return is_general ? law_of_step<true>(rule, situation.stage, last_dt)
+                        : law_of_step<false>(rule, situation.stage, last_dt);
     case InternalForce::of_instant:
       return elements::StageLaw<true>{rule.tangent};
     case InternalForce::of_statics:

@@ -13,6 +13,7 @@ using LawChoice = std::variant<elements::EnergyMomentumLaw<false>, elements::Ene
                                elements::StageLaw<true>, elements::StaticLaw, elements::NoLaw>;
 
 /// @param is_general  some material is damped, or goes slack
-LawChoice choose_law(const ForceRule& rule, const Situation& situation, bool is_general);
+/// @param last_dt     of the step before [s]; 0: there was none
+LawChoice choose_law(const ForceRule& rule, const Situation& situation, bool is_general, double last_dt);
 
 }   // namespace cablenet::system

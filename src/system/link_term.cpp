@@ -36,7 +36,7 @@ void LinkTerm::add_energy(const LocalState& state, Energies& sum) const {
   }
 }
 
-void LinkTerm::add_scales(ForceSums& sums) const {
+void LinkTerm::add_scales(const LocalState&, ForceSums& sums) const {
   for (int i = 0; i < network_.own_links; ++i) sums.stiffness += square(2 * network_.links[at(i)].stiffness);
 }
 

@@ -14,7 +14,7 @@ public:
   void couplings(BlockPattern& pattern) { slots_ = pattern.pairs(network_.links); }
   void add(Evaluation& evaluation);
   void add_energy(const LocalState& state, Energies& sum) const;
-  void add_scales(ForceSums& sums) const;
+  void add_scales(const LocalState&, ForceSums& sums) const;
 
 private:
   std::vector<PairSlots> slots_;

@@ -25,7 +25,7 @@ void PointForceTerm::end_step(const StepEnd& end) {
     work_ += point.force.at(middle).dot(point.stage - point.start) / end.stage.alpha_f;
 }
 
-void PointForceTerm::add_scales(ForceSums& sums) const {
+void PointForceTerm::add_scales(const LocalState&, ForceSums& sums) const {
   for (const ForcedPoint& point : points_) sums.load += square(point.force.largest());
 }
 

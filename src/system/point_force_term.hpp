@@ -16,7 +16,7 @@ public:
   void add(Evaluation& evaluation);
   void end_step(const StepEnd& end);
   void add_energy(const LocalState&, Energies& sum) const { sum.work += work_; }
-  void add_scales(ForceSums& sums) const;
+  void add_scales(const LocalState&, ForceSums& sums) const;
   Vector3 node_force(const LocalState& state, LocalNode node) const;
   void archive(Archive& archive) { archive.item("work of points' forces", work_); }
 

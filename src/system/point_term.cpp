@@ -37,7 +37,7 @@ void PointTerm::add_energy(const LocalState& state, Energies& sum) const {
   }
 }
 
-void PointTerm::add_scales(ForceSums& sums) const {
+void PointTerm::add_scales(const LocalState&, ForceSums& sums) const {
   for (const auto& load : network_.loads) {
     sums.load += square(load.mass * network_.gravity) + load.force.squaredNorm();
     sums.mass += square(load.mass);

@@ -41,7 +41,7 @@ public:
   /// Adds this rank's part of what the term stores, and of the work that it has done.  [J]
   void add_energy(const LocalState&, Energies&) const {}
   /// Adds this rank's squares of forces and stiffnesses.
-  void add_scales(ForceSums&) const {}
+  void add_scales(const LocalState&, ForceSums&) const {}
   /// The term's share of what pulls at an element's end: its residual there.  [N]
   /// @param element  an index into LocalNetwork::elements   @param end  0 or 1
   Vector3 end_force(const LocalState&, int /*element*/, std::size_t /*end*/) const { return Vector3::Zero(); }

@@ -66,7 +66,7 @@ def variants():
     return {"from rest": {**everything, "time": fixed},
             "adaptive": {**everything, "time": {"end": 0.3, **adaptive}},
             "statics alone": heavy,
-            "from statics": {**heavy, "initial": "static", "time": {**fixed, "spectral_radius": 0.8}},
+            "from statics": {**heavy, "initial": "static", "time": {**fixed, "scheme": "generalized_alpha", "spectral_radius": 0.8}},
             "buoy from statics": {**buoy, "initial": "static",
                                   "time": {"start": 1.0, "end": 1.3, "spectral_radius": 0.6, **adaptive}}}
 

@@ -28,7 +28,7 @@ def main():
     verification = Verification(__doc__)
     check(verification, "adaptive, 200 elements", {"adaptive": {"tolerance": 1e-2}}, 200, 1e-3)
     check(verification, "steps of 1 s, 100 elements", {"step": 1.0}, 100, 1e-3)
-    check(verification, "generalized_alpha 0.5, 50 elements", {"adaptive": {"tolerance": 1e-2}, "spectral_radius": 0.5}, 50,
+    check(verification, "generalized_alpha 0.5, 50 elements", {"adaptive": {"tolerance": 1e-2}, "scheme": "generalized_alpha", "spectral_radius": 0.5}, 50,
           2e-3)
     verification.finish()
 

@@ -11,7 +11,7 @@ CUBE = {"mass": 0.01, "inertia": [1.698e-5] * 3, "position": CENTRE.tolist(), "o
         "attachments": {"top": [0, 0, ARM]}}
 DEFAULT = {"no scheme named": ({}, {})}
 VARIANTS = {**DEFAULT, "euler": ({"rotation": "euler"}, {}),
-            "generalized_alpha 0.8": ({}, {"spectral_radius": 0.8})}
+            "generalized_alpha 0.8": ({}, {"scheme": "generalized_alpha", "spectral_radius": 0.8})}
 
 
 def swing(v, elements, step, body_keys, time_keys, end=10):

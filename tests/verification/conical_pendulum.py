@@ -5,7 +5,7 @@ from support import HELD, Verification, orders, read_reference, rows_at, scene
 
 ROD = {"area": 1e-5, "density": 1300, "youngs_modulus": 7.8e6}
 MASS, GRAVITY, END = 0.3, 9.8, 10.0
-PAPER = {"spectral_radius": 0.7}
+PAPER = {"scheme": "generalized_alpha", "spectral_radius": 0.7}
 ENERGY_MOMENTUM = {"scheme": "energy_momentum"}
 
 

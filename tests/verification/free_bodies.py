@@ -6,7 +6,7 @@ from support import Verification, body_scene, energy_drift, orders, read_referen
 
 INERTIA = np.diag([0.01, 0.02, 0.03])
 TUMBLING = {"mass": 1.0, "inertia": [0.01, 0.02, 0.03], "position": [0, 0, 0], "angular_velocity": [1e-3, 6, 1e-3]}
-SCHEMES = {"no scheme named": {}, "generalized_alpha 0.8": {"spectral_radius": 0.8}}
+SCHEMES = {"no scheme named": {}, "generalized_alpha 0.8": {"scheme": "generalized_alpha", "spectral_radius": 0.8}}
 
 
 def tumble(v, end, step, **time_keys):

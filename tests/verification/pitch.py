@@ -8,7 +8,7 @@ from support import Verification, body_scene, read_reference, rows_at
 
 MOMENTS = [0.01, 0.02, 0.03]
 STEP, INTERVAL = 1e-3, 0.04
-SCHEMES = {"no scheme named": {}, "generalized_alpha 0.8": {"spectral_radius": 0.8}}
+SCHEMES = {"no scheme named": {}, "generalized_alpha 0.8": {"scheme": "generalized_alpha", "spectral_radius": 0.8}}
 
 
 def plain_turn(angle):

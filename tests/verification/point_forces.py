@@ -4,7 +4,7 @@ import numpy as np
 from support import HELD, Verification, energy_drift, scene
 
 ROPE = {"mass_per_length": 0.5, "axial_stiffness": 2e4}
-SCHEMES = {"energy_momentum": {"scheme": "energy_momentum"}, "generalized_alpha": {"spectral_radius": 0.8}}
+SCHEMES = {"energy_momentum": {"scheme": "energy_momentum"}, "generalized_alpha": {"scheme": "generalized_alpha", "spectral_radius": 0.8}}
 
 
 def pushed_pair(step, keys, force):

@@ -14,7 +14,7 @@ BODY = {"mass": 2.0, "inertia": [0.02, 0.03, 0.025, 0.002, -0.001, 0.003], "posi
 # The cables are shorter than the distance between their ends, so that they stay taut.
 CABLES = {"one": {"from": "left", "to": "body.a", "length": 1.16, "elements": 3},
           "two": {"from": "body.b", "to": "right", "length": 1.1, "elements": 3}}
-SCHEMES = {"generalized_alpha 0.8": {"spectral_radius": 0.8}, "energy_momentum": {"scheme": "energy_momentum"}}
+SCHEMES = {"generalized_alpha 0.8": {"scheme": "generalized_alpha", "spectral_radius": 0.8}, "energy_momentum": {"scheme": "energy_momentum"}}
 END, STEP = 0.4, 2.5e-4
 CONVERGING = {"quaternion": (1e2, 1e3, 1e4), "euler": (1e3, 1e4)}   # stiffnesses of the link over the rope's EA
 STIFF = (1e8, 1e10)

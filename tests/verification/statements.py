@@ -15,7 +15,7 @@ def check_free_flight(v):
     points = {"a": {"position": [0, 0, 0], "velocity": velocities[0].tolist()},
               "b": {"position": [length, 0, 0], "velocity": velocities[1].tolist()}}
     cable = {"from": "a", "to": "b", "elements": 1}
-    for name, keys in {"energy_momentum": ENERGY_MOMENTUM, "generalized_alpha 0.8": {"spectral_radius": 0.8}}.items():
+    for name, keys in {"energy_momentum": ENERGY_MOMENTUM, "generalized_alpha 0.8": {"scheme": "generalized_alpha", "spectral_radius": 0.8}}.items():
         run = v.run(scene(rope, points, cable, 2.0, 2e-3, 0.02, ["a", "b"], GRAVITY, energy=True, **keys))
         t = run["time"][:, None]
         middle = (run.vectors("a") + run.vectors("b")) / 2
@@ -65,7 +65,7 @@ def check_damping(v):
         stepped = np.log((1 + pole * step / 2) / (1 - pole * step / 2)) / step   # the pole of the mid-point rule
         points = {"pin": HELD, "ball": {"position": [1.6, 0, 0], "mass": tip}}
         cable = {"from": "pin", "to": "ball", "elements": 1, "length": length}
-        for scheme, keys in {"energy_momentum": ENERGY_MOMENTUM, "generalized_alpha 1": {"spectral_radius": 1},
+        for scheme, keys in {"energy_momentum": ENERGY_MOMENTUM, "generalized_alpha 1": {"scheme": "generalized_alpha", "spectral_radius": 1},
                              "plain 0.8": {"scheme": "plain", "spectral_radius": 0.8}}.items():
             run = v.run(scene(spring, points, cable, 2000 * step, step, 5 * step, ["ball"], 0, **keys))
             found = fitted_pole(run["time"], run["ball.x"] - length, stepped)
@@ -156,7 +156,7 @@ def check_rest(v):
     shape = [[0, 0, height] for height in z]
     points = {"pin": HELD, "tip": {"position": shape[-1], "mass": tip}}
     cable = {"from": "pin", "to": "tip", "length": length, "elements": elements, "shape": shape}
-    for name, keys in {"no scheme named": {}, "generalized_alpha 0.8": {"spectral_radius": 0.8}}.items():
+    for name, keys in {"no scheme named": {}, "generalized_alpha 0.8": {"scheme": "generalized_alpha", "spectral_radius": 0.8}}.items():
         run = v.run(scene(chain, points, cable, 1.0, 1e-3, 0.01, ["pin", "tip", "cable"], GRAVITY, **keys))
         total = weight + tip * GRAVITY
         for column, value in {"pin.fx": 0, "pin.fy": 0, "pin.fz": total, "cable.tension_from": total,
@@ -171,7 +171,7 @@ def check_secant(v):
     rod = {"area": 1e-5, "density": 1300, "youngs_modulus": 7.8e6}
     points = {"pin": HELD, "mass": {"position": [0, 1.7320508075688772, -1], "velocity": [5.42218, 0, 0], "mass": 0.3}}
     cable = {"from": "pin", "to": "mass", "length": 2.0, "elements": 10}
-    for name, keys in {"energy_momentum": ENERGY_MOMENTUM, "generalized_alpha 0.7": {"spectral_radius": 0.7},
+    for name, keys in {"energy_momentum": ENERGY_MOMENTUM, "generalized_alpha 0.7": {"scheme": "generalized_alpha", "spectral_radius": 0.7},
                        "plain 0.7": {"scheme": "plain", "spectral_radius": 0.7}}.items():
         case = scene(rod, points, cable, 1.0, 2e-4, 0.05, ["mass", "cable"], GRAVITY, **keys)
         exact, secant = v.run(case), v.run(case, "-cable_tangent", "secant")

@@ -36,7 +36,7 @@ def blow_up_time(run, energy):
 def check_averaged(verification):
     for radius, row in AVERAGED.items():
         for step, (what, value, *tolerance) in zip(STEPS, row):
-            run, energy = swing(verification, step, spectral_radius=radius)
+            run, energy = swing(verification, step, scheme="generalized_alpha", spectral_radius=radius)
             name = f"generalized_alpha {radius}, step {step} s"
             if what == "blows up at":
                 verification.close(f"{name}: {what} [s]", blow_up_time(run, energy), value, 0.0501)

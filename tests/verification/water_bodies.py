@@ -5,7 +5,7 @@ from attitude import Turning, about, angle_between, product, turned
 from support import Verification, body_scene, orders
 
 RHO, GRAVITY = 1025.0, 9.81
-SCHEMES = {"no scheme named": {}, "generalized_alpha 0.8": {"spectral_radius": 0.8}}
+SCHEMES = {"no scheme named": {}, "generalized_alpha 0.8": {"scheme": "generalized_alpha", "spectral_radius": 0.8}}
 TURNED = product(about([1, 2, -3], 1.1), about([0, 1, 0], 0.4))   # pitch and roll are far from singular
 KINDS = {"quaternion": {"inertia": [0.4, 0.5, 0.6]}, "euler": {"inertia": [0.4, 0.5, 0.6], "rotation": "euler"},
          "point_mass": {}}

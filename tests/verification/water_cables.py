@@ -4,7 +4,7 @@ import numpy as np
 from support import Verification, orders, scene
 
 RHO, GRAVITY = 1025.0, 9.81
-SCHEMES = {"no scheme named": {}, "generalized_alpha 0.8": {"spectral_radius": 0.8}}
+SCHEMES = {"no scheme named": {}, "generalized_alpha 0.8": {"scheme": "generalized_alpha", "spectral_radius": 0.8}}
 DIAMETER, MASS, ADDED, NORMAL, TANGENTIAL = 0.03, 1.6, 0.9, 1.2, 0.05
 DISPLACED = RHO * np.pi / 4 * DIAMETER**2
 CABLE = {"mass_per_length": MASS, "axial_stiffness": 1e5, "diameter": DIAMETER, "normal_drag": NORMAL,

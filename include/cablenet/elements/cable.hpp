@@ -15,7 +15,8 @@ struct ForceTangent {
   Matrix3 w;   ///< [N s/m]
 };
 
-/// T = EA (l/L - 1) + c l'/L with c = axial_damping; T = 0 where the element is slack and tension_only.  [N]
+/// T = EA (l/L - 1) + c l'/L with c = axial_damping.  [N]  A tension_only element pulls or is silent: its tension is 0
+/// where it is slack (l < L), and where T would be negative.
 /// @param L unstretched length [m], > 0
 double cable_tension(const CableMaterial&, double L, const Chord&);
 
@@ -27,16 +28,19 @@ ForceTangent cable_force_tangent(const CableMaterial&, double L, const Chord&, T
 
 /// A step of the energy-momentum scheme from chord d0 to chord d1.
 struct ChordStep {
-  Vector3 d0;   ///< x2 - x1 at the step's start [m]
-  Vector3 d1;   ///< at its end [m]
-  double dt;    ///< [s], > 0
-  double xi;    ///< axial dissipation, 0 .. 1/2
+  Vector3 d0;       ///< x2 - x1 at the step's start [m]
+  Vector3 d1;       ///< at its end [m]
+  double dt;        ///< [s], > 0
+  double xi;        ///< axial dissipation, 0 .. 1/2
+  double due = 0;   ///< r times the change of p in the step before, r = min(1, dt/dt before) [m]
 };
 
-/// f = T (d0 + d1)/(l0 + l1),  T = EA [(1/2 - xi) strain0 + (1/2 + xi) strain1] + c (strain1 - strain0)/dt.  [N]
-/// The work f . (d1 - d0) = T (l1 - l0) is then exactly the change of strain energy, plus the numerical dissipation
-/// EA L xi (strain1 - strain0)^2, plus what damping takes.  A tension_only element that goes slack or taut within the
-/// step gets the discrete gradient of its strain energy, for which the same balance holds.
+/// f = T (d0 + d1)/(l0 + l1),  T = theta (EA/L ((p0 + p1)/2 + xi (p1 - p0 - due)) + c/L (l1 - l0)/dt),
+/// theta = (p1 - p0)/(l1 - l0).  [N]  Here p is the elongation that carries tension: l - L, or 0 where the element is
+/// slack and tension_only.  The part without xi and c is the discrete gradient of the strain energy EA/L p^2/2: its
+/// work f . (d1 - d0) is exactly what the element stores.  The part with xi resists the change of the rate.  The sum of
+/// the energy and of xi/2 EA/L (p1 - p0)^2 never grows by it, and what it takes out is of third order in dt a step.
+/// A tension_only element pulls or is silent: T is 0 where it would be negative.
 Vector3 energy_momentum_force(const CableMaterial&, double L, const ChordStep&);
 
 /// The derivative of energy_momentum_force by d1, an unsymmetric matrix.  [N/m]

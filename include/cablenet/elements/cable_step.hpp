@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+
 #include "cablenet/elements/cable.hpp"
 
 /// The forces of cable.hpp in the form that the loop over elements inlines.  Where `general` is false the material is
@@ -47,26 +49,41 @@ inline Ramp ramp(const CableMaterial& m, double elongation0, double elongation1)
   return {0, 0, 0, 0, 0};
 }
 
-/// The tension of the energy-momentum scheme in a step of length dt, in which the element's length goes from l0 to l1.
+/// An element's step from length l0 to l1 in the energy-momentum scheme.
+struct LengthStep {
+  double l0, l1;   ///< [m]
+  double dt;       ///< [s]
+  double xi;       ///< axial dissipation
+  double due;      ///< the change of p that the step before lets expect [m]
+};
+
+/// The elongation that carries tension.  [m]
 template <bool general>
-TensionSlope step_tension(const CableMaterial& m, double L, double l0, double l1, double dt, double xi) {
-  const double k = m.axial_stiffness / L;
-  const double rise = l1 - l0;
-  if constexpr (!general) return {k * (0.5 * ((l0 - L) + (l1 - L)) + xi * rise), k * (0.5 + xi)};
-  const Ramp r = ramp(m, l0 - L, l1 - L);
-  const double mean = 0.5 * (r.p0 + r.p1);
-  const double rate = m.axial_damping / (L * dt);
-  return {k * (r.taut * mean + xi * (r.p1 - r.p0)) + rate * r.taut * rise,
-          k * (r.dtaut * mean + (0.5 * r.taut + xi) * r.dp1) + rate * (r.dtaut * rise + r.taut)};
+double carried_elongation(const CableMaterial& m, double elongation) {
+  return carries<general>(m, elongation) ? elongation : 0.0;
+}
+
+/// T = theta (EA/L ((p0 + p1)/2 + xi (p1 - p0 - due)) + c/L (l1 - l0)/dt), theta = (p1 - p0)/(l1 - l0).
+/// A tension_only element pulls or is silent.
+template <bool general>
+TensionSlope step_tension(const CableMaterial& m, double L, const LengthStep& s) {
+  const double k = m.axial_stiffness / L, rise = s.l1 - s.l0;
+  if constexpr (!general) return {k * (0.5 * ((s.l0 - L) + (s.l1 - L)) + s.xi * (rise - s.due)), k * (0.5 + s.xi)};
+  const Ramp r = ramp(m, s.l0 - L, s.l1 - L);
+  const double rate = m.axial_damping / (L * s.dt);
+  const double full = k * (0.5 * (r.p0 + r.p1) + s.xi * (r.p1 - r.p0 - s.due)) + rate * rise;
+  if (m.tension_only && r.taut * full <= 0) return {0, 0};
+  return {r.taut * full, r.dtaut * full + r.taut * (k * (0.5 + s.xi) * r.dp1 + rate)};
 }
 
 /// The tension at an instant, with w = v2 - v1.
 template <bool general>
 double instant_tension(const CableMaterial& m, double L, const Stretch& s, const Vector3& w) {
-  if (!carries<general>(m, s.l - L)) return 0;
   const double elastic = m.axial_stiffness * ((s.l - L) / L);
-  if constexpr (general) return elastic + m.axial_damping * s.d.dot(w) / (s.l * L);
-  return elastic;
+  if constexpr (!general) return elastic;
+  if (!carries<general>(m, s.l - L)) return 0;
+  const double tension = elastic + m.axial_damping * s.d.dot(w) / (s.l * L);
+  return m.tension_only ? std::max(tension, 0.0) : tension;
 }
 
 /// a mean e^T + b (I - mean e^T).
@@ -80,21 +97,25 @@ inline Vector3 energy_momentum_force(const TensionSlope& tension, const Stretch&
   return tension.T / (s0.l + s1.l) * (s0.d + s1.d);
 }
 
-inline Matrix3 energy_momentum_tangent(const TensionSlope& tension, const Stretch& s0, const Stretch& s1,
+/// @param turning  the tension that turns the chord: the step's, or one that was predicted [N]
+inline Matrix3 energy_momentum_tangent(double slope, double turning, const Stretch& s0, const Stretch& s1,
                                        Tangent kind) {
   const double both = 1 / (s0.l + s1.l);
   const Vector3 mean = both * (s0.d + s1.d);
-  if (kind == Tangent::secant) return tension.slope * mean * mean.transpose();
-  return axial_and_turning(tension.slope, both * tension.T, mean, 1 / s1.l * s1.d);
+  if (kind == Tangent::secant) return slope * mean * mean.transpose();
+  return axial_and_turning(slope, both * turning, mean, 1 / s1.l * s1.d);
 }
 
+/// @param T        at the instant [N]
+/// @param turning  the tension that turns the chord: T, or one that was predicted [N]
 template <bool general>
 ForceTangent instant_tangent(const CableMaterial& m, double L, const Stretch& s, const Vector3& w, double T,
-                             Tangent kind) {
-  if (!carries<general>(m, s.l - L)) return {Matrix3::Zero(), Matrix3::Zero()};
+                             double turning, Tangent kind) {
+  const bool is_silent = general && m.tension_only && T <= 0;
   const Vector3 e = 1 / s.l * s.d;
-  const double k = m.axial_stiffness / L;
-  ForceTangent K{axial_and_turning(k, kind == Tangent::secant ? 0 : T / s.l, e, e), Matrix3::Zero()};
+  const double k = is_silent ? 0 : m.axial_stiffness / L;
+  ForceTangent K{axial_and_turning(k, kind == Tangent::secant ? 0 : turning / s.l, e, e), Matrix3::Zero()};
+  if (is_silent) return K;
   if constexpr (general) {
     K.w = m.axial_damping / L * e * e.transpose();
     if (kind == Tangent::exact) K.d += m.axial_damping / (s.l * L) * e * (w - e * e.dot(w)).transpose();

@@ -13,7 +13,7 @@ struct StaticLaw {
   using Start = Stretch;   ///< at the last iterate
   StaticRule rule;
 
-  static Start start(const CableMaterial&, double, const Vector3& d, const Vector3&) { return stretch(d); }
+  void begin(const ElementStart& e, Start& start) const { start = stretch(e.d); }
   template <bool with_tangent>
   bool evaluate(const Start& last, const ElementStage& e, Vector3& f, Matrix3& K) const {
     const Stretch s = stretch(e.d);

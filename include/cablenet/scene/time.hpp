@@ -18,8 +18,8 @@ struct Time {
   double end = 0;     ///< [s]
   double step = 0;    ///< of time; the first one where the step is adaptive [s]
   Scheme scheme = Scheme::energy_momentum;
-  double spectral_radius = 1;             ///< meant for generalized_alpha and plain; 1 for energy_momentum
-  double axial_dissipation = 0;           ///< xi of energy_momentum: 0 where the scene names the scheme, else 0.05
+  double spectral_radius = 1;
+  double axial_dissipation = 0;           ///< xi of energy_momentum: 0 where the scene asks that nothing be removed
   std::optional<double> tolerance = {};   ///< of an adaptive step: its local error of positions [m]; none: equal steps
 };
 

@@ -12,8 +12,10 @@ struct AlphaWeights {
 
   /// These are the weights of the two steps by which PETSc's TSALPHA2 estimates its first acceleration.
   bool is_start() const { return alpha_m == 1 && alpha_f == 1 && gamma == 1 && beta == 0.5; }
-  /// At spectral radius 1 the method's acceleration alternates about the true one from step to step.
-  bool alternates() const { return alpha_m == 0.5 && alpha_f == 0.5; }
+  /// The stage is the step's middle, and the acceleration there is the step's mean (v1 - v0)/dt.  The method's own
+  /// acceleration at the step's end then alternates about the true one, the longer the nearer its spectral radius is to
+  /// 1.
+  bool is_centred() const { return alpha_f == 0.5 && alpha_m == gamma; }
 };
 
 /// The weights and the length of a step.

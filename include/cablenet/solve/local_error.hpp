@@ -1,6 +1,8 @@
 #pragma once
 #include <petscvec.h>
 
+#include <span>
+
 #include "cablenet/base/archive.hpp"
 #include "cablenet/partition/local_network.hpp"
 #include "cablenet/solve/alpha_step.hpp"
@@ -9,27 +11,41 @@ namespace cablenet::solve {
 
 /// The start of a step.
 struct StepStart {
-  Vec x;   ///< [m]
-  Vec v;   ///< [m/s]
-  Vec a;   ///< the acceleration that is kept: the step's mean where the method's own alternates [m/s^2]
+  Vec x;            ///< [m]
+  Vec v;            ///< [m/s]
+  Vec a;            ///< the acceleration that is kept: as AlphaStepper::a() [m/s^2]
+  Vec expected_a;   ///< the acceleration that the step may be expected to have [m/s^2]
 };
 
 /// The local error of a step: the distance by which this step alone leads a node astray.
 ///   error = |beta + (alpha_f - alpha_m)/2 - 1/6| dt^3 |x'''|,   x''' = (a1 - a0)/(t_a1 - t_a0)
 /// a0 and a1 are the accelerations that are kept before and after the step.  t_a0 and t_a1 are the times at which the
-/// true motion has them.  The largest error of any node counts; attitudes of bodies do not.
+/// true motion has them.  A centred method takes the one before a0 instead of a0: what vibrates too fast for the step
+/// alternates in them, and leaves no node astray.  The largest error of any node counts; attitudes of bodies do not.
+///
+/// Where there is no water the errors of steps add up, period by period.  So each counts over the time in which the
+/// motion turns by 1.5 rad: the tolerance then bounds the error of a period to some 6 times its value, and not that of a
+/// step.  Water's drag forgets what a step has erred.
 /// Tests: tests/parallel/adaptive_test.cpp
 class LocalError {
 public:
+  /// @param longest  over which a step's error can count; 0: each counts by itself [s]
+  explicit LocalError(double longest = 0) : longest_(longest) {}
+
   /// Of a step that leads from `start` to x1.  [m]  Collective.
-  double estimate(const AlphaStep& step, const partition::LocalNetwork& network, const StepStart& start, Vec x1);
+  /// @param growth  of each unknown's kept acceleration in the step before [m/s^2]; empty where it is not to count
+  double estimate(const AlphaStep& step, const partition::LocalNetwork& network, const StepStart& start,
+                  std::span<const double> growth, Vec x1);
   /// The step that was estimated last is taken.
-  void accept() { a_time_ = next_a_time_; }
-  void archive(Archive& archive) { archive.item("local_error.a_time", a_time_); }
+  void accept();
+  void archive(Archive& archive);
 
 private:
+  double longest_;           ///< over which a step's error counts [s]
   double a_time_ = 0;        ///< t_a0, counted from the step's start [s]
   double next_a_time_ = 0;   ///< t_a1, counted from the step's end [s]
+  double between_ = 0;       ///< t_a1 - t_a0 [s]
+  double grown_over_ = 0;    ///< the same of the step before [s]
 };
 
 }   // namespace cablenet::solve

@@ -1,6 +1,7 @@
 #pragma once
 #include <petscsnes.h>
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -30,7 +31,7 @@ public:
 
   void configure(SNES snes) override;
   void adopt_options() override;
-  void begin_attempt(bool is_retry) override;
+  void begin_attempt(int attempt) override;
   void begin_solve(const AlphaStep& step, const StepStart& start, Vec guess) override;
   void residual(Vec x, Vec v, Vec a, Vec r) override;
   void tangent() override;
@@ -38,8 +39,9 @@ public:
 
   /// M a = f(t, x, v).  @throws SolverError
   void solve_acceleration(double t, Vec x, Vec v, Vec a);
-  /// Before each step.  @param measures  whether to look up the largest coordinate, which rounding depends on
-  void begin_step(double t, Vec x, bool measures);
+  /// Before each step.
+  /// @param measures  whether to measure the forces and the largest coordinate, on which tolerances depend
+  void begin_step(double t, Vec x, Vec v, bool measures);
   /// @param iterations  of all solves of the step
   void end_step(long iterations) { expected_iterations_ = iterations; }
 
@@ -61,7 +63,11 @@ private:
   void choose_line_search(bool searches);
   bool is_at_rounding(PetscInt iteration, double norm);
   SNESConvergedReason test(PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm);
-  system::TangentRequest tangent_request() { return {tangent_, {1, step_.shift_v(), step_.shift_a()}}; }
+  system::TangentRequest tangent_request();
+  system::TurningRule turning() const;
+  void break_cycle(PetscInt iteration, double norm);
+  bool makes_progress(PetscInt iteration, double norm);
+  bool is_at_positions_rounding(double correction, double positions) const;
   system::Stage stage() const { return {t_, step_.dt, step_.alpha_f}; }
   static PetscErrorCode converged(SNES, PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm,
                                   SNESConvergedReason* reason, void* self) noexcept;
@@ -78,12 +84,19 @@ private:
   Vec x_ = nullptr, v_ = nullptr, a_ = nullptr;   ///< at the stage of the last residual
   petsc::VectorState tangent_at_;                 ///< of the x at which a residual brought its tangent along
   long evaluations_ = 0;                          ///< of the residual in the running solve
+  long tangents_ = 0;                             ///< of the running solve
+  double best_norm_ = 0;                          ///< of the running solve's residuals [N]
+  std::array<double, 2> norms_{};                 ///< of its last two residuals [N]
+  PetscInt best_at_ = 0;                          ///< its iteration
   long expected_iterations_ = 1;                  ///< as many as the last step took
   double largest_coordinate_ = 0;                 ///< [m]
   int outside_element_ = -1;     ///< scene number of an element that lost its length in the running attempt
   int outside_body_ = -1;        ///< likewise of a body that turned out of its domain
   SolverNumber singular_node_;   ///< solver number: where the tangent was singular
   bool is_retry_ = false;
+  bool searches_ = false;       ///< along its corrections
+  bool cycles_ = false;         ///< The running solve came back to a residual that it had.
+  bool is_shortened_ = false;   ///< The next correction is halved.
   bool makes_tangents_ = false;
   bool combines_ = false;   ///< each residual but a solve's last brings its tangent along
   bool user_line_search_ = false;

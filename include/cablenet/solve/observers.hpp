@@ -12,8 +12,8 @@ struct Instant {
   long step;   ///< steps done
   Vec x;       ///< positions [m]
   Vec v;       ///< velocities [m/s]
-  /// Accelerations: exact at the start; later those of the scheme, or the mean of the last step where they alternate
-  /// from step to step (AlphaWeights::alternates).  [m/s^2]
+  /// Accelerations: exact at the start; later those of the scheme, or the mean of the last step where the scheme's own
+  /// alternate from step to step (AlphaWeights::is_centred).  [m/s^2]
   Vec a;
 };
 

@@ -12,15 +12,13 @@ namespace cablenet::solve {
 
 struct SchemeRow {
   scene::Scheme scheme;
-  bool has_radius;   ///< its spectral radius can be chosen, to damp what the step does not resolve; if not it is 1
   bool has_axial_dissipation;
-  const char* advice;   ///< what may help where Newton's method fails: "Try a smaller time.step or ..."
+  AlphaWeights (*weights)(
+      double spectral_radius);   ///< The radius says how much of what the step does not resolve stays.
+  const char* advice;            ///< what may help where Newton's method fails: "Try a smaller time.step or ..."
 };
 
 const SchemeRow& row_of(scene::Scheme scheme);
-
-/// Sets the spectral radius [0..1].  A scheme without one gives way to generalized_alpha.
-void set_spectral_radius(scene::Time& time, double radius);
 
 /// The method's weights for the scheme and its spectral radius.
 AlphaWeights weights_of(const scene::Time& time);

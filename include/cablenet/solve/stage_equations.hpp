@@ -15,8 +15,8 @@ public:
   virtual void configure(SNES snes) = 0;
   virtual void adopt_options() = 0;
 
-  /// @param is_retry  an attempt at this step has failed
-  virtual void begin_attempt(bool is_retry) = 0;
+  /// @param attempt  at the running step, from 1 on; the second one has the same length
+  virtual void begin_attempt(int attempt) = 0;
   /// @param start  of the step
   /// @param guess  of the positions at the step's end; where it is left alone, those at the start
   virtual void begin_solve(const AlphaStep& step, const StepStart& start, Vec guess) = 0;

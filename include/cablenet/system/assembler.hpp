@@ -70,8 +70,8 @@ public:
   /// What must act on a node beside its elements for the observed motion.  [N]  Not collective.
   Vector3 node_force(LocalNode node) const;
 
-  /// From the drawn start.
-  ForceScales force_scales();
+  /// Of the forces at an instant.  It observes the instant.
+  ForceScales force_scales(double t, Vec x, Vec v);
   /// An index into Network::bodies of one on any rank whose Euler angles are singular within a degree of pitch; -1:
   /// none.
   int nearly_singular_body(Vec x) const;

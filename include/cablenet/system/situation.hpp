@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <optional>
 
 #include "cablenet/base/linear_algebra.hpp"
@@ -31,6 +32,14 @@ struct Situation {
   double bed_softness = 1;   ///< The bed is so many times softer, its smoothing so many times wider.  0: no bed.
 };
 
+/// Which tension turns the chords in a tangent: the force's own, or the one that the last tangent of the running solve
+/// lets expect (elements::Turning).
+struct TurningRule {
+  bool is_predicted = false;
+  bool is_first = true;                                      ///< of the solve
+  double least = -std::numeric_limits<double>::infinity();   ///< [N]
+};
+
 /// Where a tangent goes, and what it is by.
 struct TangentRequest {
   TangentMatrix& matrix;
@@ -39,6 +48,7 @@ struct TangentRequest {
   /// A stiffness of bodies against turning, over the torque that their forces can have.  With it, water's loads on
   /// bodies do not follow attitudes.
   double steadiness = 0;
+  TurningRule turning{};
 };
 
 }   // namespace cablenet::system

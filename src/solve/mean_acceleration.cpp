@@ -1,0 +1,43 @@
+#include "cablenet/solve/mean_acceleration.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cablenet/petsc/handle.hpp"
+
+namespace cablenet::solve {
+namespace {
+
+using petsc::check;
+
+/// The lesser of two changes, or none where they differ in sign.
+double lesser(double one, double other) {
+  return one * other > 0 ? std::copysign(std::min(std::abs(one), std::abs(other)), one) : 0;
+}
+
+}   // namespace
+
+void MeanAcceleration::advance(double dt, Vec v0, Vec v1, Vec a, Vec expected) {
+  PetscInt size = 0;
+  const double *start = nullptr, *end = nullptr;
+  double *mean = nullptr, *next = nullptr;
+  check(VecGetLocalSize(a, &size));
+  check(VecGetArrayRead(v0, &start));
+  check(VecGetArrayRead(v1, &end));
+  check(VecGetArray(a, &mean));
+  check(VecGetArrayWrite(expected, &next));
+  const auto count = static_cast<std::size_t>(size);
+  growth_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double now = (end[i] - start[i]) / dt, growth = now - mean[i];
+    mean[i] = now;
+    next[i] = now + lesser(growth, growth_[i]);
+    growth_[i] = growth;
+  }
+  check(VecRestoreArrayWrite(expected, &next));
+  check(VecRestoreArray(a, &mean));
+  check(VecRestoreArrayRead(v1, &end));
+  check(VecRestoreArrayRead(v0, &start));
+}
+
+}   // namespace cablenet::solve
