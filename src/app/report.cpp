@@ -56,6 +56,22 @@ void emit_statics(YAML::Emitter& yaml, const Report::Statics& statics) {
        << number(statics.frame.y()) << number(statics.frame.z()) << YAML::EndSeq << YAML::EndMap;
 }
 
+void emit_energy(YAML::Emitter& yaml, const EnergyReport& report) {
+  const auto& [now, moved, gained, imbalance] = report.energy;
+  const auto put = [&](const char* key, double value) {
+    yaml << YAML::Key << key << YAML::Value << fmt::format("{:.6g}", value);
+  };
+  yaml << YAML::Key << "energy" << YAML::Value << YAML::BeginMap;
+  put("moved_J", moved);
+  put("dissipated_J", now.dissipated);
+  put("damping_J", now.damping);
+  put("water_J", now.water);
+  put("bed_J", now.bed);
+  put("gained_J", gained);
+  put("balance_over_moved", moved > 0 ? imbalance / moved : 0);
+  yaml << YAML::EndMap;
+}
+
 void emit_solution(YAML::Emitter& yaml, const Report& report) {
   if (report.statics) emit_statics(yaml, *report.statics);
   yaml << YAML::Key << "scheme" << YAML::Value << report.scheme;
@@ -64,6 +80,7 @@ void emit_solution(YAML::Emitter& yaml, const Report& report) {
   yaml << YAML::Key << "rejected_steps" << YAML::Value << report.counts.rejected;
   yaml << YAML::Key << "newton_iterations" << YAML::Value << report.counts.newton;
   yaml << YAML::Key << "linear_iterations" << YAML::Value << report.counts.linear;
+  if (report.energy) emit_energy(yaml, *report.energy);
   emit_seconds(yaml, "wall_seconds", report.phases, &Report::Phase::wall);
   emit_seconds(yaml, "cpu_seconds", report.phases, &Report::Phase::cpu);
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <petscts.h>
 
-#include <ctime>
 #include <optional>
 
 #include "cablenet/app/progress.hpp"
@@ -12,36 +11,17 @@
 #include "cablenet/output/frames.hpp"
 #include "cablenet/output/probes.hpp"
 #include "cablenet/petsc/solver_types.hpp"
+#include "cablenet/solve/energy_watch.hpp"
 #include "cablenet/solve/relaxation.hpp"
 #include "cablenet/solve/scheme.hpp"
 #include "cablenet/solve/statics.hpp"
 #include "choices.hpp"
+#include "stopwatch.hpp"
 
 namespace cablenet::app {
 namespace {
 
 using petsc::check;
-
-/// Adds the time since construction or the last lap to a phase.
-class Stopwatch {
-public:
-  void lap(Report::Phase& phase) {
-    const double wall = MPI_Wtime(), cpu = cpu_seconds();
-    phase.wall += wall - wall_;
-    phase.cpu += cpu - cpu_;
-    wall_ = wall;
-    cpu_ = cpu;
-  }
-
-private:
-  static double cpu_seconds() {
-    timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-  }
-  double wall_ = MPI_Wtime();
-  double cpu_ = cpu_seconds();
-};
 
 /// The phase with the computing time of the rank that computed most.  Collective.
 Report::Phase slowest(Report::Phase phase) {
@@ -98,7 +78,9 @@ private:
   }
 
   void set_up_dynamics() {
-    dynamics_.emplace(*assembler_, time_, solve::Dynamics::Settings{scene_.output.interval});
+    solve::Dynamics::Settings settings{scene_.output.interval};
+    settings.keeps_accounts = scene_.output.energy;
+    dynamics_.emplace(*assembler_, time_, settings);
     introduce(fmt::format("{}, {}", solve::describe(time_, rule_), dynamics_->linear_solver()));
   }
 
@@ -169,7 +151,13 @@ private:
     report_.scheme = solve::describe(time_, rule_);
     report_.linear_solver = dynamics_->linear_solver();
     if (rank_ == 0) progress.finish(report_.reached, report_.counts.steps, report_.counts.newton);
-    if (verdict == solve::Verdict::failed)
+    if (const system::EnergySummary* const energy = assembler_->energy_summary()) {
+      report_.energy.emplace(*energy, scene_);
+      if (rank_ == 0) fmt::print("{}\n", describe(*report_.energy));
+    }
+    if (dynamics_->has_gained_energy())
+      report_.message = fmt::format("at t = {:.9g} s {}", report_.reached, describe_gain(*report_.energy));
+    else if (verdict == solve::Verdict::failed)
       report_.message = fmt::format("at t = {:.9g} s the solver could not go on {}", report_.reached, explanation());
     return conclude(verdict, verdict == solve::Verdict::failed ? advice() : "");
   }
@@ -249,6 +237,7 @@ private:
   }
 
   std::string advice() const {
+    if (dynamics_->has_gained_energy()) return solve::cure_of_gain(time_.scheme);
     if (is_singular_attitude()) return "Give the body rotation: quaternion, the default, which has no such attitude";
     if (failed_.left_domain) return "Try a smaller time.step";
     return fmt::format("Try a smaller time.step or {}", solve::row_of(time_.scheme).advice);

@@ -22,6 +22,9 @@ std::vector<int> own_elements(const partition::LocalNetwork& here, std::size_t s
   return own;
 }
 
+constexpr const char* energy_names[] = {"kinetic",    "strain",  "gravity", "work", "total",
+                                        "dissipated", "damping", "water",   "bed",  "balance"};
+
 constexpr const char* motion_names[] = {"x", "y", "z", "vx", "vy", "vz", "ax", "ay", "az"};
 
 /// Free nodes with one element and no load.  Nothing but the element pulls at them.
@@ -57,8 +60,7 @@ Probes::Probes(const scene::Scene& scene, const network::Network& network, const
     if (item.kind == scene::HistoryKind::cable) add_cable(network, item.index, where);
   }
   if (energy_)
-    for (const char* name : {"kinetic", "strain", "gravity", "work", "total"})
-      columns_.push_back(std::string("energy.") + name);
+    for (const char* name : energy_names) columns_.push_back(std::string("energy.") + name);
   row_.resize(columns_.size());
 }
 
@@ -134,7 +136,9 @@ const std::vector<double>& Probes::row(const system::LocalState& state) {
   }
   if (energy_) {
     const system::Energies e = assembler_.energies();
-    std::copy_n(std::array{e.kinetic, e.strain, e.gravity, e.work, e.total()}.begin(), 5, row_.end() - 5);
+    const std::array values{e.kinetic,    e.strain,  e.gravity, e.work, e.total(),
+                            e.dissipated, e.damping, e.water,   e.bed,  e.balance()};
+    std::copy(values.begin(), values.end(), row_.end() - std::ssize(values));
   }
   int rank = 0;
   MPI_Comm_rank(assembler_.communicator(), &rank);

@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "cablenet/petsc/options.hpp"
+#include "cablenet/solve/energy_watch.hpp"
+#include "cablenet/solve/own_options.hpp"
 
 namespace cablenet::solve {
 namespace {
@@ -22,7 +24,11 @@ Dynamics::Dynamics(system::Assembler& assembler, const scene::Time& time, const 
       time_(time),
       newton_(assembler),
       stepper_(assembler, newton_, time, settings.most_steps, settings.prefix),
-      schedule_(time.start, std::min(stepper_.end(), time.end), stepper_.first_step(), settings.output_interval) {
+      schedule_(time.start, std::min(stepper_.end(), time.end), stepper_.first_step(), settings.output_interval),
+      is_watched_(settings.is_watched && may_gain_energy(time, stepper_.weights())) {
+  most_gained_ = read_number(most_gained_option, assembler.communicator(), settings.prefix, most_gained_, 0,
+                             std::numeric_limits<double>::infinity());
+  if (settings.keeps_accounts || is_watched_) assembler.keep_accounts();
   time_.step = stepper_.first_step();
   if (!time.tolerance || petsc::has_option("-ts_adapt_type", settings.prefix)) return;
   const double span = time.end - time.start, interval = settings.output_interval;
@@ -63,7 +69,10 @@ Verdict Dynamics::run(const Observers& observers) {
 bool Dynamics::is_at_an_end(const Observers& observers) {
   const bool exhausted = last_step_ < smallest_step * time_.step;
   outside_body_ = assembler_.nearly_singular_body(stepper_.x());
-  if (schedule_.at_output() || exhausted || outside_body_ >= 0) observers.output(instant());
+  has_gained_energy_ =
+      is_watched_ && gains_energy(*assembler_.energy_summary(), newton_.energy_rounding(), most_gained_);
+  if (schedule_.at_output() || exhausted || outside_body_ >= 0 || has_gained_energy_) observers.output(instant());
+  if (has_gained_energy_) return true;
   if (outside_body_ >= 0 || !exhausted) return outside_body_ >= 0;
   if (control_) failure_ = control_->refusal(last_step_);
   if (failure_.empty())

@@ -26,10 +26,15 @@ const OwnOption elimination_limit_option{
 const OwnOption statics_monitor_option{
     {"-cable_statics_monitor", "shows the iterations on the way to equilibrium"}, "no value", "off"};
 
+const OwnOption most_gained_option{
+    {"-cable_most_gained", "the most energy that a scheme may bring in from nowhere, over what the run moves"},
+    "a number >= 0; 2 lets everything pass",
+    "0.05"};
+
 namespace {
 
-constexpr std::array all{&axial_dissipation_option, &tangent_option, &elimination_limit_option,
-                         &statics_monitor_option};
+constexpr std::array all{&axial_dissipation_option, &tangent_option, &elimination_limit_option, &statics_monitor_option,
+                         &most_gained_option};
 
 }   // namespace
 

@@ -51,7 +51,7 @@ bool relax(const system::Assembler& assembler, double t, const Vector3& velocity
   time.tolerance = relaxation_tolerance(assembler.network());
   system::Assembler settling(in_frame(assembler, t, velocity, duration), force_rule_of(time), assembler.communicator());
   StaticForces(settling, 0, Vector3::Zero()).start_from(x);
-  Dynamics dynamics(settling, time, {duration, relaxation_prefix, most_steps});
+  Dynamics dynamics(settling, time, {duration, relaxation_prefix, most_steps, false, false});
   const Verdict verdict = dynamics.run(
       {[&](const Instant& instant) { check(VecCopy(instant.x, x)); }, [](double, double, const Counts&) {}});
   return verdict != Verdict::failed;

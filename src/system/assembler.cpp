@@ -2,52 +2,15 @@
 
 #include <algorithm>
 
+#include "assembler_parts.hpp"
 #include "cablenet/petsc/phase.hpp"
-#include "prescribed_nodes.hpp"
-#include "terms.hpp"
 
 namespace cablenet::system {
 namespace {
 
 using petsc::check;
 
-/// Each term is built from the network alone.
-template <class... T>
-std::tuple<T...> make_terms(const partition::LocalNetwork& network, std::tuple<T...>*) {
-  return {T(network)...};
-}
-
-/// Calls visit(term) for all terms in their order.
-template <class Tuple, class Visit>
-void for_each_term(Tuple& terms, Visit&& visit) {
-  std::apply([&](auto&... term) { (visit(term), ...); }, terms);
-}
-
 }   // namespace
-
-struct Assembler::Parts {
-  Parts(const partition::LocalNetwork& network, MPI_Comm communicator)
-      : outside(network),
-        exchange(network, communicator),
-        prescribed(network),
-        pattern(network),
-        terms(make_terms(network, static_cast<Terms*>(nullptr))) {
-    const auto couple = [this] { for_each_term(terms, [this](auto& term) { term.couplings(pattern); }); };
-    couple();
-    pattern.fix(communicator);
-    couple();
-    for_each_term(terms, [this](const auto& term) { has_rates = has_rates || term.has_rates(); });
-  }
-
-  BodyTerm& bodies() { return std::get<BodyTerm>(terms); }
-
-  OutsideNodes outside;
-  GhostExchange exchange;
-  PrescribedNodes prescribed;
-  BlockPattern pattern;
-  Terms terms;
-  bool has_rates = false;
-};
 
 Assembler::Assembler(partition::LocalNetwork network, ForceRule rule, MPI_Comm communicator)
     : network_(std::move(network)), rule_(rule), communicator_(communicator) {
@@ -106,6 +69,12 @@ void Assembler::begin(const Situation& situation, Vec x, Vec v) {
       network_, data, situation, rule_, parts_->exchange, parts_->bodies(), parts_->bodies().carried()};
   parts_->bodies().start_step(data);
   for_each_term(parts_->terms, [&](auto& term) { term.begin_step(evaluation); });
+  if (parts_->accounts) parts_->accounts->begin_step(evaluation);
+}
+
+void Assembler::begin_step(double t, Vec x, Vec v) {
+  if (parts_->accounts) open_accounts(t, x, v);
+  begin({.stage = {t, 0, 0}}, x, v);
 }
 
 bool Assembler::evaluate_terms(const Situation& situation, Vec x, Vec v, Vec a, Vec r, const TangentRequest* request,
@@ -143,6 +112,7 @@ bool Assembler::evaluate(const Situation& situation, Vec x, Vec v, Vec a, Vec r,
 bool Assembler::residual(const Stage& stage, Vec x, Vec v, Vec a, Vec r, const TangentRequest* request) {
   evaluated_ = petsc::state_of(x);
   evaluated_stage_ = stage;
+  parts_->last_residual = {x, v, a};
   return evaluate_terms({.stage = stage}, x, v, a, r, request, true);
 }
 
@@ -167,9 +137,13 @@ void Assembler::force(double t, Vec x, Vec v, Vec force) {
 
 void Assembler::end_step(const Stage& stage, Vec x, Vec v) {
   parts_->prescribed.end_step(stage, parts_->outside.forces.data());
-  const petsc::ChangedValues at_x(x), at_v(v);
-  const StepEnd end{stage, rule_.conserves(stage, network_.surroundings.fluid.has_value()), at_x, at_v};
-  for_each_term(parts_->terms, [&](auto& term) { term.end_step(end); });
+  {
+    const petsc::ChangedValues at_x(x), at_v(v);
+    const StepEnd end{stage, rule_.conserves(stage, network_.surroundings.fluid.has_value()), at_x, at_v};
+    for_each_term(parts_->terms, [&](auto& term) { term.end_step(end); });
+    if (parts_->accounts) parts_->accounts->end_step(end);
+  }
+  if (parts_->accounts) close_accounts(stage, x, v);
 }
 
 const LocalState& Assembler::observe(double t, Vec x, Vec v, Vec a, bool is_calm) {
@@ -200,6 +174,8 @@ Energies Assembler::energies() const {
   Energies sum;
   sum.work = parts_->prescribed.work();
   for_each_term(parts_->terms, [&](const auto& term) { term.add_energy(state_, sum); });
+  sum.start = sum.total();
+  if (parts_->accounts) parts_->accounts->add_to(sum);
   return sum;
 }
 
@@ -237,6 +213,7 @@ void Assembler::archive(Archive& archive) {
   archive.item("start", std::span(network_.position.data()->data(), 3 * network_.position.size()));
   parts_->prescribed.archive(archive);
   for_each_term(parts_->terms, [&](auto& term) { term.archive(archive); });
+  if (parts_->accounts) parts_->accounts->archive(archive);
 }
 
 }   // namespace cablenet::system

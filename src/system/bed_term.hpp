@@ -6,6 +6,7 @@ namespace cablenet::system {
 /// Contact of cables with the bed and friction on it.  Tests: tests/parallel/surroundings_test.cpp
 class BedTerm : public Term {
 public:
+  static constexpr Account account = Account::bed;
   using Term::Term;
 
   bool has_rates() const { return network_.surroundings.bed.has_value(); }

@@ -8,6 +8,7 @@ namespace cablenet::system {
 /// Drag and added mass of bodies at their centres of gravity.  Tests: tests/parallel/surroundings_test.cpp
 class BodyWaterTerm : public WaterTerm {
 public:
+  static constexpr Account account = Account::water;
   using WaterTerm::WaterTerm;
 
   void add(Evaluation& evaluation);

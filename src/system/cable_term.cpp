@@ -115,6 +115,7 @@ std::vector<typename Law::Start>& CableTerm::starts() {
 }
 
 void CableTerm::begin_step(Evaluation& evaluation) {
+  last_dt_ = taken_dt_;
   const auto record = [&]<class Law>(const Law& law) {
     if constexpr (!std::is_same_v<typename Law::Start, elements::NoStart>) {
       auto& starts = this->starts<Law>();
@@ -167,7 +168,7 @@ void CableTerm::archive(Archive& archive) {
   auto& reached = std::get<std::vector<elements::ReachedStart>>(starts_);
   std::vector<double> lengths;
   for (const auto& start : reached) lengths.push_back(start.s.l);
-  archive.item("cables.last_dt", last_dt_);
+  archive.item("cables.taken_dt", taken_dt_);
   archive.item("cables.lengths", lengths);
   reached.resize(lengths.size());
   for (std::size_t i = 0; i < reached.size(); ++i) reached[i].s.l = lengths[i];

@@ -21,7 +21,7 @@ public:
   void add(Evaluation& evaluation);
   void add_energy(const LocalState& state, Energies& sum) const;
   void add_scales(const LocalState& state, ForceSums& sums) const;
-  void end_step(const StepEnd& end) { last_dt_ = end.stage.dt; }
+  void end_step(const StepEnd& end) { taken_dt_ = end.stage.dt; }
   Vector3 end_force(const LocalState& state, int element, std::size_t end) const;
   void archive(Archive& archive);
 
@@ -36,7 +36,8 @@ private:
              std::vector<elements::AveragedStart<true>>, std::vector<elements::ReachedStart>,
              std::vector<elements::Stretch>>
       starts_;
-  double last_dt_ = 0;   ///< of the last accepted step [s]; 0: there was none
+  double taken_dt_ = 0;   ///< of the last accepted step [s]; 0: there was none
+  double last_dt_ = 0;    ///< of the step before the running one [s]
   /// The chords' directions at the last tangent, and where those at the present one are kept.
   std::array<std::vector<Vector3>, 2> directions_;
 };

@@ -6,6 +6,7 @@ namespace cablenet::system {
 /// Drag, added mass and buoyancy of cables.  Tests: tests/parallel/surroundings_test.cpp
 class CableWaterTerm : public WaterTerm {
 public:
+  static constexpr Account account = Account::water;
   using WaterTerm::WaterTerm;
 
   void add(Evaluation& evaluation);

@@ -9,6 +9,7 @@ namespace cablenet::system {
 /// Tests: tests/parallel/surroundings_test.cpp
 class PointWaterTerm : public WaterTerm {
 public:
+  static constexpr Account account = Account::water;
   using WaterTerm::WaterTerm;
 
   void couplings(BlockPattern& pattern) { slots_ = pattern.own(network_.wet_points); }

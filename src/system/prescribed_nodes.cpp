@@ -30,6 +30,7 @@ void PrescribedNodes::place(const Situation& situation, bool has_mean_accelerati
 void PrescribedNodes::end_step(const Stage& stage, const double* outside_forces) {
   const double lag = stage.t + 0.5 * stage.dt - stage.time(), since = stage.time() - previous_stage_time_;
   const double slope = since > 0 && lag != 0 ? lag / since : 0;
+  step_shift_ = 0;
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     Step& step = steps_[i];
     const double* const force =
@@ -38,6 +39,7 @@ void PrescribedNodes::end_step(const Stage& stage, const double* outside_forces)
     const bool is_first = step.previous_reaction.isZero(0);
     const Vector3 middle = is_first ? reaction : Vector3(reaction + slope * (reaction - step.previous_reaction));
     work_ += middle.dot(step.end.x - step.start.x);
+    step_shift_ += (middle - reaction).dot(step.end.x - step.start.x);
     step.previous_reaction = reaction;
   }
   previous_stage_time_ = stage.time();

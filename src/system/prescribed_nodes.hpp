@@ -20,6 +20,8 @@ public:
   /// Adds the work of the accepted step, of which these were the last forces on the nodes that are not owned.
   void end_step(const Stage& stage, const double* outside_forces);
   double work() const { return work_; }   ///< since the start [J]
+  /// The part of the last step's work that taking the reactions to mid-step has made [J].
+  double step_shift() const { return step_shift_; }
   void archive(Archive& archive);
 
 private:
@@ -34,7 +36,7 @@ private:
   double start_time_ = std::numeric_limits<double>::quiet_NaN();   ///< of steps_ [s]
   double dt_ = -1;                                                 ///< of the step whose ends steps_ has [s]
   double previous_stage_time_ = 0;
-  double work_ = 0;
+  double work_ = 0, step_shift_ = 0;
 };
 
 }   // namespace cablenet::system

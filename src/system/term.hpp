@@ -19,6 +19,9 @@ struct StepEnd {
   double* v;
 };
 
+/// The energy account that a term's work goes to (energy_accounts.hpp).  What stores energy is the scheme's.
+enum class Account { scheme, water, bed };
+
 /// One physics of the network: what a term has to say beside its forces.  A term derives from this, and hides what it
 /// has to say itself.  Nothing here is virtual: terms.hpp lists the types.  A term's forces and tangent are
 ///   void add(Evaluation&);
@@ -26,6 +29,8 @@ struct StepEnd {
 /// [N/m], as far as the evaluation asks for them.
 class Term {
 public:
+  static constexpr Account account = Account::scheme;
+
   explicit Term(const partition::LocalNetwork& network) : network_(network) {}
 
   /// Some of its forces depend on velocities.

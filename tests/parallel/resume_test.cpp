@@ -91,7 +91,8 @@ public:
                       end.a = system_.field(instant.a);
                       system_.assembler.observe(instant.t, instant.x, instant.v, instant.a);
                       const system::Energies part = system_.assembler.energies();
-                      end.energies = {part.kinetic, part.strain, part.gravity, part.work};
+                      end.energies = {part.kinetic, part.strain, part.gravity, part.work, part.dissipated,
+                                      part.damping, part.water,  part.bed,     part.start};
                     },
                     [&](double, double dt, const solve::Counts& counts) {
                       if (counts.steps > 10) end.steps.push_back(dt);
@@ -115,7 +116,10 @@ private:
     statics.make_start();
   }
   void make_dynamics() {
-    dynamics_.emplace(system_.assembler, scene_.time, solve::Dynamics::Settings{scene_.output.interval, nullptr, 20});
+    solve::Dynamics::Settings settings{scene_.output.interval, nullptr, 20};
+    settings.keeps_accounts = true;
+    settings.is_watched = false;
+    dynamics_.emplace(system_.assembler, scene_.time, settings);
   }
 
   scene::Scene scene_;

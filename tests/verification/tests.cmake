@@ -8,6 +8,7 @@ cablenet_script_test(verification_tow_manoeuvres verification/tow_manoeuvres.py 
 cablenet_script_test(verification_biomapper_circle verification/biomapper_circle.py 120 verification)
 cablenet_script_test(verification_statements verification/statements.py 120 verification)
 cablenet_script_test(verification_point_forces verification/point_forces.py 120 verification)
+cablenet_script_test(verification_energy verification/energy.py 120 verification)
 cablenet_script_test(verification_free_bodies verification/free_bodies.py 120 verification)
 cablenet_script_test(verification_pitch verification/pitch.py 120 verification)
 cablenet_script_test(verification_body_pendulum verification/body_pendulum.py 120 verification)

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "cablenet/app/energy_report.hpp"
 #include "cablenet/network/network.hpp"
 #include "cablenet/partition/partition.hpp"
 #include "cablenet/scene/scene.hpp"
@@ -28,7 +29,8 @@ struct Report {
     double largest_load;   ///< [N]
     int iterations;
   };
-  std::optional<Statics> statics;   ///< where there was an equilibrium to find
+  std::optional<Statics> statics;       ///< where there was an equilibrium to find
+  std::optional<EnergyReport> energy;   ///< where accounts were kept
   /// A part of the run, with its wall time and its time of computing [s].
   struct Phase {
     std::string name;

@@ -19,8 +19,9 @@ namespace cablenet::output {
 /// A cable has tension_from and tension_to [N].  A tension is the size of the force that pulls at the cable's end, with
 /// a minus sign in compression, and 0 at an end where nothing is attached.  The force includes half an element's weight
 /// and inertia, so that its error is of second order in the element's length.
-/// The energies [J] are kinetic, strain, gravity (m g z), work (of moved points and constant forces), and
-/// total = kinetic + strain + gravity - work.
+/// The energies [J] are kinetic, strain, gravity (m g z), work (of moved points, forces and torques), and
+/// total = kinetic + strain + gravity - work.  Then follow the accounts dissipated, damping, water and bed, and
+/// balance = total + accounts - total at the start.
 class Probes {
 public:
   Probes(const scene::Scene& scene, const network::Network& network, const system::Assembler& assembler);

@@ -70,6 +70,8 @@ public:
   Vec v() const { return v_; }   ///< [m/s]
   /// The step's mean where the method is centred, else the method's own.  [m/s^2]
   Vec a() const { return a_; }
+  /// The scene's, or what the user's options made of them.
+  AlphaWeights weights() const { return read_step(); }
   /// The weights and the length of the last attempt.
   const AlphaStep& step() const { return step_; }
   /// The local error of the last attempt [m].  @pre control_errors

@@ -22,6 +22,8 @@ public:
     double output_interval = 0;                          ///< [s]; 0: every step
     const char* prefix = nullptr;                        ///< of all options
     long most_steps = std::numeric_limits<int>::max();   ///< where -ts_max_steps is not given
+    bool keeps_accounts = false;                         ///< of energy
+    bool is_watched = true;                              ///< where the scheme may gain energy; accounts are kept then
   };
 
   /// Reads the options database (-ts_*, -snes_*, -ksp_*, -pc_*, -mat_mumps_*, -cable_elimination_limit).
@@ -37,6 +39,9 @@ public:
   const std::string& failure() const { return failure_; }
   /// Where (on any rank) the failed attempt's residual was worst or undefined.
   FailedPart failed_part() { return newton_.failed_part(outside_body_); }
+
+  /// The run ended as its scheme brought energy in from nowhere.
+  bool has_gained_energy() const { return has_gained_energy_; }
 
   /// Saves or loads t, x, v, a, what the terms keep, and all else that the further path depends on.  To be called
   /// between steps: before run(), or by an observer of steps.  Saving restarts the stepper, which changes the further
@@ -65,6 +70,9 @@ private:
   double last_step_ = 0;    ///< [s]
   int outside_body_ = -1;   ///< in Network::bodies, of one that the last step brought too near to a singular attitude
   std::string failure_;
+  bool is_watched_;   ///< The scheme may gain energy.
+  bool has_gained_energy_ = false;
+  double most_gained_ = 0.05;   ///< over what the run moves
 };
 
 }   // namespace cablenet::solve

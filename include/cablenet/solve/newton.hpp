@@ -52,6 +52,8 @@ public:
   /// @param known_body  in Network::bodies, of one that is known to have left its domain, or -1
   FailedPart failed_part(int known_body);
   std::string linear_solver() const { return linear_.describe(); }
+  /// What rounding of positions does to stored energy: eps |x| times the loads at the start.  [J]
+  double energy_rounding() const { return PETSC_MACHINE_EPSILON * largest_coordinate_ * scales_.load; }
 
   /// What the next step's path depends on.
   void archive(Archive& archive);

@@ -14,7 +14,8 @@ struct OwnOption {
   const char* fallback;   ///< what holds where the option is not given
 };
 
-extern const OwnOption axial_dissipation_option, tangent_option, elimination_limit_option, statics_monitor_option;
+extern const OwnOption axial_dissipation_option, tangent_option, elimination_limit_option, statics_monitor_option,
+    most_gained_option;
 
 std::span<const OwnOption* const> own_options();
 

@@ -38,7 +38,7 @@ public:
   void start_from(double t, Vec x, const Vector3& velocity);
 
   /// Keeps what the forces need of a step's start.
-  void begin_step(double t, Vec x, Vec v) { begin({.stage = {t, 0, 0}}, x, v); }
+  void begin_step(double t, Vec x, Vec v);
   /// r = M (a + beta v) + f_int - loads at the stage.  [N]
   /// With a request, also the tangent dr/dx shift.x + dr/dv shift.v + dr/da shift.a [N/m], unpublished.
   /// @returns false on a rank where two neighbouring nodes coincide (or a value is not finite); r is then of no use.
@@ -47,7 +47,7 @@ public:
   /// @pre no two neighbours coincide
   void tangent(const Stage& stage, Vec x, Vec v, Vec a, const TangentRequest& request);
   /// Ends the accepted step whose last residual this is, and sets the bodies' end velocities where the step conserves.
-  /// Not collective.
+  /// Collective where accounts are kept; the vectors of the last residual must then still stand.
   void end_step(const Stage& stage, Vec x, Vec v);
 
   /// As begin_step() and residual(), in any situation.  r may be null where there is a request.
@@ -62,8 +62,12 @@ public:
   /// Brings an instant's positions, velocities and accelerations of all local nodes together for energies and probes.
   /// @param is_calm  the forces on what is observed are those in water without waves, as in statics
   const LocalState& observe(double t, Vec x, Vec v, Vec a, bool is_calm = false);
-  /// This rank's part: kinetic, strain, gravity energy and external work since the start [J].  @pre observe
+  /// This rank's part of the observed state's energies, and of what was taken since the start.  @pre observe
   Energies energies() const;
+  /// From the next step on, accounts say where energy goes (src/system/energy_accounts.hpp).  Not collective.
+  void keep_accounts();
+  /// Up to the last step's end; nullptr where no accounts are kept.  Not collective.
+  const EnergySummary* energy_summary() const;
   /// What must pull at an element's end for the observed motion, water and bed included.  [N]  Not collective.
   /// @param element  an index into LocalNetwork::elements   @param end  0 or 1
   Vector3 end_force(int element, std::size_t end) const;
@@ -87,6 +91,8 @@ private:
   struct Parts;
   bool evaluate_terms(const Situation& situation, Vec x, Vec v, Vec a, Vec r, const TangentRequest* request,
                       bool must_exchange);
+  void open_accounts(double t, Vec x, Vec v);
+  void close_accounts(const Stage& stage, Vec x, Vec v);
 
   partition::LocalNetwork network_;
   ForceRule rule_;

@@ -3,17 +3,9 @@
 
 #include "cablenet/elements/cable_data.hpp"
 #include "cablenet/partition/local_network.hpp"
+#include "cablenet/system/energies.hpp"
 
 namespace cablenet::system {
-
-/// Energies and work [J].  total() is constant where nothing dissipates.
-struct Energies {
-  double kinetic = 0;
-  double strain = 0;
-  double gravity = 0;   ///< m g z
-  double work = 0;      ///< by moved points, forces and torques since the start
-  double total() const { return kinetic + strain + gravity - work; }
-};
 
 struct BodyState {
   Quaternion attitude;   ///< body axes to world, unit, of continuous sign

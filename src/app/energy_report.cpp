@@ -1,0 +1,47 @@
+#include "cablenet/app/energy_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace cablenet::app {
+namespace {
+
+bool is_damped(const scene::CableType& type) {
+  return type.axial_damping > 0 || type.rayleigh_mass > 0 || type.rayleigh_stiffness > 0;
+}
+
+/// Of a part in what moved; nothing moved where that is zero.
+double share(double part, double moved) { return moved > 0 ? part / moved : 0; }
+
+std::string taken(const char* name, double part, double moved) {
+  return fmt::format("{} {} {:.3g} J ({:.2g} %)", name, part < 0 ? "gave" : "took", std::abs(part),
+                     100 * share(std::abs(part), moved));
+}
+
+}   // namespace
+
+EnergyReport::EnergyReport(const system::EnergySummary& of_run, const scene::Scene& scene)
+    : energy(of_run),
+      is_damped(std::any_of(scene.cable_types.begin(), scene.cable_types.end(), app::is_damped)),
+      is_wet(scene.fluid.has_value()),
+      has_bed(scene.bed.has_value()) {}
+
+std::string describe(const EnergyReport& report) {
+  const auto& [now, moved, gained, imbalance] = report.energy;
+  std::string text = fmt::format("energy: {:.3g} J moved; ", moved);
+  if (report.is_damped) text += taken("damping", now.damping, moved) + ", ";
+  text += taken("the step's formulas", now.dissipated, moved);
+  if (report.is_wet) text += ", " + taken("water", now.water, moved);
+  if (report.has_bed) text += ", " + taken("the bed", now.bed, moved);
+  return text + fmt::format("; the balance closes to {:.2g}", share(imbalance, moved));
+}
+
+std::string describe_gain(const EnergyReport& report) {
+  const auto& [now, moved, gained, imbalance] = report.energy;
+  return fmt::format("the step's formulas have brought in {:.4g} J from nowhere, {:.2g} % of the {:.4g} J that moved",
+                     gained, 100 * share(gained, moved), moved);
+}
+
+}   // namespace cablenet::app

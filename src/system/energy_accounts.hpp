@@ -1,0 +1,95 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "cable_term.hpp"
+#include "cablenet/system/assembler.hpp"
+#include "evaluation.hpp"
+
+namespace cablenet::system {
+
+/// What a group of terms did in a step, at this rank's nodes: residuals times what the nodes did.
+struct StepWork {
+  double path = 0;      ///< the ways from the step's start to its end [J]
+  double turning = 0;   ///< of it, what turning bodies did [J]
+  double power = 0;     ///< the velocities at the stage [W]
+};
+
+/// A step of which the accounts are to be kept.
+struct StepRecord {
+  const Stage& stage;
+  StepWork stored;     ///< of all that stores energy, damping included
+  StepWork undamped;   ///< the same without the cables' damping
+  StepWork water, bed;
+  double prescribed_work;    ///< since the start [J]
+  double prescribed_shift;   ///< as PrescribedNodes::step_shift()
+};
+
+/// Where energy goes, step by step.  A term's work in a step is its residual at the stage times x1 - x0, summed over
+/// nodes.  These works add up to that of the prescribed nodes, as the step's equations say.  So the balance closes if
+/// each term's work goes to an account:
+///   water, bed   theirs
+///   damping      that of the cables, less that of the same cables without damping
+///   dissipated   what is left: works, less the change of what is stored
+/// Where the stage is not the middle of the step, the first three are powers at the stage, taken to the middle by the
+/// last step's.  `dissipated` takes the difference, and the one that the prescribed nodes have made.  So all accounts
+/// are of second order, and the balance still closes.
+/// Bodies' turning: the others' work on it is known, and their kinetic energy, so what is between them is dissipated.
+/// All is this rank's part, but for the summary.  Tests: tests/parallel/energy_test.cpp
+class EnergyAccounts {
+public:
+  /// @param scratch, resting  vectors of the solver; `resting` is zero
+  EnergyAccounts(const partition::LocalNetwork& network, MPI_Comm communicator, Vector scratch, Vector resting);
+
+  /// The next step's start is known.
+  bool is_open() const { return is_open_; }
+  /// @param stored  energies, and the terms' work   Collective.
+  void open(const LocalState& start, const Energies& stored, double prescribed_work);
+  void begin_step(Evaluation& evaluation);
+  void end_step(const StepEnd& end);
+  /// Measures the nodes' ways to the step's end.
+  void measure(const LocalState& end);
+  /// The work of the forces in `data`.
+  StepWork work(const NodeData& data) const;
+  /// Collective.
+  void close(const StepRecord& step, const LocalState& end, const Energies& stored);
+
+  /// nullptr where no cable is damped.
+  CableTerm* undamped() { return undamped_ ? &undamped_->term : nullptr; }
+  Vec scratch() const { return scratch_; }
+  Vec resting() const { return resting_; }
+  void add_to(Energies& sum) const;
+  const EnergySummary& summary() const { return summary_; }
+  void archive(Archive& archive);
+
+private:
+  struct Undamped {
+    explicit Undamped(const partition::LocalNetwork& damped);
+    partition::LocalNetwork network;
+    CableTerm term;
+  };
+
+  double at_middle(std::size_t account, const Stage& stage, const StepWork& work);
+  double taken_from_turning(double dt, const LocalState& end) const;
+  void summarise(const Energies& stored, double prescribed_work);
+  void keep_start(const LocalState& state, const Energies& stored);
+
+  const partition::LocalNetwork& network_;
+  MPI_Comm communicator_;
+  Vector scratch_, resting_;
+  std::unique_ptr<Undamped> undamped_;
+  bool is_open_ = false, has_begun_ = false;
+  Energies stored_;                  ///< at the step's start
+  std::vector<double> way_;          ///< of the local nodes: where they were at the step's start, then x1 - x0 [m]
+  std::vector<Vector3> spins_;       ///< of the bodies at the step's start [rad/s]
+  Energies taken_;                   ///< the accounts, and the total at the start
+  std::array<double, 3> power_{};    ///< of damping, water and bed at the last stage [W]
+  double previous_stage_time_ = 0;   ///< [s]
+  double highest_dissipated_ = 0;    ///< on all ranks
+  Energies first_;                   ///< at the start, on all ranks
+  EnergySummary summary_;
+  long steps_ = 0;
+};
+
+}   // namespace cablenet::system

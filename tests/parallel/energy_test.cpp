@@ -1,0 +1,294 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "../support/networks.hpp"
+#include "cablenet/solve/dynamics.hpp"
+#include "cablenet/solve/energy_watch.hpp"
+#include "cablenet/solve/scheme.hpp"
+
+/// These tests hold the energy accounts against each other and against what is known of the losses.
+namespace cablenet::test {
+namespace {
+
+using scene::Scheme;
+
+struct SchemeCase {
+  const char* name;
+  Scheme scheme;
+  double radius, axial_dissipation;
+  friend void PrintTo(const SchemeCase& item, std::ostream* out) { *out << item.name; }
+};
+const SchemeCase conserving{"energy_momentum", Scheme::energy_momentum, 1, 0};
+
+struct SceneCase {
+  const char* name;
+  const char* text;
+  friend void PrintTo(const SceneCase& item, std::ostream* out) { *out << item.name; }
+};
+
+const SceneCase vacuum[] = {{"free_chain", R"(
+environment: {gravity: 9.81}
+points:
+  a: {position: [0, 0, 0], velocity: [0, 3, 0], mass: 0.5, force: [0, 0, 7]}
+  b: {position: [8, 0, 0], velocity: [0, -2, 1]}
+cables: {chain: {type: rope, from: a, to: b, elements: 11, length: 7.9}}
+)"},
+                            {"body_on_ropes", R"(
+environment: {gravity: 9.81}
+points:
+  p: {position: [-2, 0, 0], motion: fixed}
+  q: {position: [2, 0, 0], motion: {harmonic: {amplitude: [0, 0.1, 0.2], period: 0.7}}}
+bodies:
+  one: {mass: 3, inertia: [0.4, 0.5, 0.6, 0.05, -0.02, 0.03], position: [0, 0, -2], angular_velocity: [1, -2, 3],
+        torque: [0.2, 0.1, -0.3], force: [0, 1, 0], attachments: {a: [-0.3, 0.1, 0.2], b: [0.3, -0.1, 0.2], c: [0, 0, -0.2]}}
+  two: {mass: 1, inertia: [0.1, 0.1, 0.1], position: [0, 0, -4], velocity: [1, 0, 0], attachments: {top: [0, 0, 0.1]},
+        rotation: euler}
+  three: {mass: 1, inertia: [0.1, 0.2, 0.1], position: [1, 0, -4], attachments: {top: [0, 0, 0.1]},
+          coupling: {rigid_link: {axial_stiffness: 1e5}}}
+cables:
+  first: {type: rope, from: p, to: one.a, elements: 4}
+  second: {type: damped, from: q, to: one.b, elements: 4}
+  third: {type: slack, from: one.c, to: two.top, elements: 3, length: 1.9}
+  fourth: {type: rope, from: one.c, to: three.top, elements: 2}
+)"},
+                            {"snap", R"(
+environment: {gravity: 9.81}
+points:
+  top: {position: [0, 0, 0], motion: fixed}
+  low: {position: [0.4, 0, 0.5], mass: 2}
+cables: {line: {type: slack, from: top, to: low, elements: 5, length: 2}}
+)"},
+                            {"damped_and_moved", R"(
+environment: {gravity: 9.81}
+points:
+  top: {position: [0, 0, 0], motion: {harmonic: {amplitude: [0, 0.05, 0.1], period: 0.9}}, mass: 1}
+  tip: {position: [3, 0, 0], mass: 1, velocity: [0, 2, 0], force: {waypoints: [[0, 0, 0, 0], [0.5, 3, 0, 4], [2, 0, 0, 0]]}}
+  far: {position: [3, 0, -2], motion: {velocity: [0.3, 0, 0]}}
+cables:
+  chain: {type: damped, from: top, to: tip, elements: 9}
+  other: {type: rope, from: tip, to: far, elements: 4}
+)"}};
+
+const SceneCase surrounded[] = {{"waves_and_bed", R"(
+environment:
+  gravity: 9.81
+  fluid: {density: 1025, surface: 0, depth: 5, current: {velocity: [0.3, 0.1, 0]}, waves: [{height: 0.4, period: 2, direction: 20}]}
+  seabed: {level: -5, stiffness: 2.0e4, damping: 2.0e3, friction: 0.4}
+points:
+  top: {position: [0, 0, 0.5], motion: {harmonic: {amplitude: [0.1, 0, 0.1], period: 1.3}}}
+  tail: {position: [6, 0, -5], volume: 0.002, drag_area: 0.02, added_mass: 1, mass: 3}
+cables: {line: {type: wet, from: top, to: tail, elements: 12, length: 8.2}}
+)"},
+                                {"body_in_water", R"(
+environment: {gravity: 9.81, fluid: {density: 1025}}
+points: {top: {position: [0, 0, 0], motion: {velocity: [0.5, 0, 0]}}}
+bodies:
+  fish: {mass: 30, inertia: [1, 2, 2], position: [-3, 0, -2], angular_velocity: [0.5, -0.4, 0.3], volume: 0.02,
+         center_of_buoyancy: [0, 0, 0.1], attachments: {nose: [0.5, 0, 0.1]},
+         drag: {linear: [1, 2, 2, 1, 1, 1], quadratic: [5, 40, 40, 2, 3, 3]}, added_mass: [3, 15, 15, 0.1, 0.5, 0.5]}
+cables: {line: {type: wet, from: top, to: fish.nose, elements: 7}}
+)"}};
+
+scene::Scene scene_in(const SceneCase& item, const SchemeCase& by, double end, double step) {
+  const std::string types =
+      "cable_types:\n"
+      "  rope: {mass_per_length: 0.5, axial_stiffness: 2000}\n"
+      "  slack: {mass_per_length: 0.3, axial_stiffness: 1500, tension_only: true}\n"
+      "  damped: {mass_per_length: 0.4, axial_stiffness: 1000, axial_damping: 8, rayleigh: {mass: 0.7, stiffness: "
+      "2.0e-3}}\n"
+      "  wet: {mass_per_length: 1.5, axial_stiffness: 3000, diameter: 0.03, normal_drag: 1.2, tangential_drag: 0.05, "
+      "added_mass: 1, axial_damping: 20}\n"
+      "time: {end: 1, step: 0.1}\n";
+  scene::Scene scene = scene::read_scene(types + item.text, "test.yaml");
+  scene.time = {0, end, step, by.scheme, by.radius, by.axial_dissipation};
+  return scene;
+}
+
+/// A run that keeps accounts.
+class Accounted {
+public:
+  explicit Accounted(const scene::Scene& scene, const char* prefix = nullptr)
+      : system_(network::build_network(scene), solve::force_rule_of(scene.time), PETSC_COMM_WORLD),
+        dynamics_(system_.assembler, scene.time, settings(prefix)) {
+    verdict = dynamics_.run({[&](const solve::Instant& instant) {
+                               system_.assembler.observe(instant.t, instant.x, instant.v, instant.a);
+                               const system::Energies part = system_.assembler.energies();
+                               observed_balance = sum_over_ranks(part.balance());
+                             },
+                             [](double, double, const solve::Counts&) {}});
+    summary = *system_.assembler.energy_summary();
+  }
+  const system::Energies& now() const { return summary.now; }
+  bool has_gained() const { return dynamics_.has_gained_energy(); }
+
+  solve::Verdict verdict{};
+  system::EnergySummary summary;
+  double observed_balance = 0;
+
+private:
+  static solve::Dynamics::Settings settings(const char* prefix) {
+    solve::Dynamics::Settings made{0, prefix};
+    made.keeps_accounts = true;
+    return made;
+  }
+
+  System system_;
+  solve::Dynamics dynamics_;
+};
+
+class Balance : public testing::TestWithParam<std::tuple<SceneCase, SchemeCase>> {};
+
+}   // namespace
+
+/// What each account takes is computed from forces, and the balance from energies: they agree to what Newton's method
+/// leaves, 1e-12 of the loads in each of 200 steps.
+TEST_P(Balance, ClosesAtEveryStep) {
+  const auto& [item, by] = GetParam();
+  const Accounted run(scene_in(item, by, 1, 0.005));
+  EXPECT_EQ(run.verdict, solve::Verdict::finished);
+  EXPECT_GT(run.summary.moved, 0.1);
+  EXPECT_LE(run.summary.imbalance, 1e-9 * run.summary.moved);
+  EXPECT_LE(std::abs(run.observed_balance), 1e-9 * run.summary.moved);
+}
+
+const auto name_of = [](const auto& item) {
+  return std::string(std::get<0>(item.param).name) + "_" + std::get<1>(item.param).name;
+};
+
+const SchemeCase schemes[] = {conserving,
+                              {"dissipating", Scheme::energy_momentum, 1, 0.05},
+                              {"generalized_alpha", Scheme::generalized_alpha, 0.6, 0},
+                              {"plain", Scheme::plain, 0.8, 0}};
+
+INSTANTIATE_TEST_SUITE_P(Vacuum, Balance, testing::Combine(testing::ValuesIn(vacuum), testing::ValuesIn(schemes)),
+                         name_of);
+INSTANTIATE_TEST_SUITE_P(Surrounded, Balance,
+                         testing::Combine(testing::ValuesIn(surrounded), testing::ValuesIn(schemes)), name_of);
+
+class Conserved : public testing::TestWithParam<SceneCase> {};
+
+/// Between its two ends a step of energy_momentum takes nothing of cables, points and bodies with quaternions.
+TEST_P(Conserved, NothingIsDissipated) {
+  const Accounted run(scene_in(GetParam(), conserving, 1, 0.005));
+  EXPECT_LE(std::abs(run.now().dissipated), 1e-9 * run.summary.moved);
+  EXPECT_EQ(run.now().water, 0);
+  EXPECT_EQ(run.now().bed, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Vacuum, Conserved, testing::Values(vacuum[0], vacuum[2]),
+                         [](const auto& item) { return item.param.name; });
+
+namespace {
+
+/// The errors of an account at three steps, each half the one before, against a fourth of the last.
+std::vector<double> errors(const SceneCase& item, const SchemeCase& by, double system::Energies::*account,
+                           double coarsest) {
+  const double exact = Accounted(scene_in(item, conserving, 1, coarsest / 32)).now().*account;
+  std::vector<double> found;
+  for (const double divisor : {1, 2, 4})
+    found.push_back(std::abs(Accounted(scene_in(item, by, 1, coarsest / divisor)).now().*account - exact));
+  return found;
+}
+
+}   // namespace
+
+/// Also where the stage is not the step's middle.
+TEST(Accounts, AreOfSecondOrder) {
+  const std::map<const char*, double system::Energies::*> accounts{
+      {"work", &system::Energies::work}, {"damping", &system::Energies::damping}, {"water", &system::Energies::water}};
+  for (const SchemeCase& by : {conserving, SchemeCase{"generalized_alpha", Scheme::generalized_alpha, 0.6, 0}})
+    for (const auto& [name, account] : accounts) {
+      const std::vector<double> off = errors(surrounded[1], by, account, 0.01);
+      EXPECT_GE(std::log2(off[0] / off[2]) / 2, 1.8) << by.name << " " << name << " " << off[0] << " " << off[2];
+    }
+}
+
+/// A mass swings on one damped element along a line: m x'' + c x' + k x = 0.
+TEST(Accounts, ADashpotTakesWhatTheMassLoses) {
+  const double m = 2 + 0.5 / 3, k = 1000, c = 8, x0 = 0.1, end = 0.25;
+  scene::Scene scene = scene::read_scene(R"(
+environment: {gravity: 0}
+cable_types: {dashpot: {mass_per_length: 0.5, axial_stiffness: 1000, axial_damping: 8}}
+points: {top: {position: [0, 0, 0], motion: fixed}, bob: {position: [1.1, 0, 0], mass: 2}}
+cables: {spring: {type: dashpot, from: top, to: bob, elements: 1, length: 1}}
+time: {end: 1, step: 0.1}
+)",
+                                         "test.yaml");
+  scene.time = {0, end, 5e-5, Scheme::energy_momentum, 1, 0};
+  const Accounted run(scene);
+  const double decay = c / (2 * m), w = std::sqrt(k / m - decay * decay);
+  const double x = x0 * std::exp(-decay * end) * (std::cos(w * end) + decay / w * std::sin(w * end));
+  const double v = -x0 * std::exp(-decay * end) * (w + decay * decay / w) * std::sin(w * end);
+  const double lost = 0.5 * k * (x0 * x0 - x * x) - 0.5 * m * v * v;
+  EXPECT_NEAR(run.now().damping, lost, 1e-5 * lost);
+  EXPECT_NEAR(run.now().dissipated, 0, 1e-10 * lost);
+}
+
+/// Mass damping alone takes twice its rate of the kinetic energy of what flies freely.
+TEST(Accounts, MassDampingSlowsWhatFlies) {
+  scene::Scene scene = scene::read_scene(R"(
+environment: {gravity: 0}
+cable_types: {rope: {mass_per_length: 0.5, axial_stiffness: 1000, rayleigh: {mass: 0.7}}}
+points: {a: {position: [0, 0, 0], velocity: [0, 3, 0]}, b: {position: [2, 0, 0], velocity: [0, 3, 0]}}
+cables: {line: {type: rope, from: a, to: b, elements: 6}}
+time: {end: 1, step: 0.001, scheme: energy_momentum}
+)",
+                                         "test.yaml");
+  const Accounted run(scene);
+  const double lost = 0.5 * 0.5 * 2 * 9 * (1 - std::exp(-1.4));
+  EXPECT_NEAR(run.now().damping, lost, 1e-6 * lost);
+}
+
+/// The papers' whip: nothing but the formulas can have brought in its energy.
+TEST(Watch, EndsAWhipThatGains) {
+  scene::Scene scene = scene::read_scene(R"(
+environment: {gravity: 9.81}
+cable_types: {steel: {mass_per_length: 0.153036, axial_stiffness: 1039860}}
+points: {pin: {position: [0, 0, 0], motion: fixed}, free: {position: [1.713, 0, 0]}}
+cables: {c: {type: steel, from: pin, to: free, elements: 24}}
+time: {end: 1.2, step: 0.005, scheme: generalized_alpha, spectral_radius: 0.8}
+)",
+                                         "test.yaml");
+  {
+    const Accounted run(scene);
+    EXPECT_EQ(run.verdict, solve::Verdict::failed);
+    EXPECT_TRUE(run.has_gained());
+    EXPECT_GT(run.summary.gained, 0.05 * run.summary.moved);
+    EXPECT_LE(run.summary.imbalance, 1e-9 * run.summary.moved);
+  }
+  scene.time.scheme = Scheme::energy_momentum;
+  scene.time.spectral_radius = 1;
+  EXPECT_EQ(Accounted(scene).verdict, solve::Verdict::finished);
+  // The user's weights take this scheme off the middle of the step, and all checks of it with them.
+  const Option weight("-off_ts_alpha_alpha_f", "0.55");
+  const Accounted off(scene, "off_");
+  EXPECT_EQ(off.has_gained(), off.verdict == solve::Verdict::failed);
+}
+
+TEST(Watch, LooksAtWhatMovesAndAtRounding) {
+  system::EnergySummary energy;
+  energy.moved = 100;
+  energy.gained = 4.9;
+  EXPECT_FALSE(solve::gains_energy(energy, 0));
+  energy.gained = 5.1;
+  EXPECT_TRUE(solve::gains_energy(energy, 0));
+  EXPECT_FALSE(solve::gains_energy(energy, 0.06));
+  energy.gained = std::nan("");
+  EXPECT_TRUE(solve::gains_energy(energy, 1));
+}
+
+TEST(Watch, IsForSchemesThatMayGain) {
+  scene::Time time;
+  EXPECT_FALSE(solve::may_gain_energy(time, solve::weights_of(time)));
+  solve::AlphaWeights shifted = solve::weights_of(time);
+  shifted.alpha_f = 0.55;
+  EXPECT_TRUE(solve::may_gain_energy(time, shifted));
+  for (const Scheme scheme : {Scheme::generalized_alpha, Scheme::plain}) {
+    time.scheme = scheme;
+    EXPECT_TRUE(solve::may_gain_energy(time, solve::weights_of(time)));
+  }
+}
+
+}   // namespace cablenet::test
