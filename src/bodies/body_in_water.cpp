@@ -73,4 +73,8 @@ BodyLoad body_load(const BodyInWater& body, const environment::Fluid& fluid, dou
   return load;
 }
 
+double turning_drag_power(const Properties& body, const Vector3& w) {
+  return (body.linear_drag + body.quadratic_drag.cwiseProduct(w.cwiseAbs())).dot(w.cwiseAbs2());
+}
+
 }   // namespace cablenet::bodies

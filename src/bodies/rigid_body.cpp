@@ -147,12 +147,6 @@ int rotation_unknowns(Rotation rotation) {
   return rotation == Rotation::quaternion ? 4 : rotation == Rotation::euler ? 3 : 0;
 }
 
-double drag_power(const Properties& body, const Vector3& w) {
-  Vector3 torque = Vector3::Zero();
-  add_drag<double>(body, w, torque);
-  return torque.dot(w);
-}
-
 RotationState rotation_state(Rotation rotation, const Quaternion& attitude, const Vector3& w) {
   RotationState state;
   if (rotation == Rotation::quaternion) {

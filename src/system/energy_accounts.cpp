@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "cablenet/bodies/rigid_body.hpp"
+#include "cablenet/bodies/body_in_water.hpp"
 
 namespace cablenet::system {
 namespace {
@@ -97,7 +97,7 @@ double EnergyAccounts::taken_from_turning(double dt, const LocalState& end) cons
   for (std::size_t b = 0; b < at(network_.own_bodies); ++b) {
     const partition::LocalBody& body = network_.bodies[b];
     const Vector3 &w0 = spins_[b], &w1 = end.bodies[b].w;
-    sum += dt * bodies::drag_power(body.properties, 0.5 * (w0 + w1));
+    sum += dt * bodies::turning_drag_power(body.properties, 0.5 * (w0 + w1));
     if (body.water) sum += 0.5 * body.water->added_inertia.dot(w1.cwiseAbs2() - w0.cwiseAbs2());
   }
   return sum;

@@ -43,4 +43,7 @@ PointLoad point_load(const PointInWater&, const environment::Fluid&, double t, d
 /// @param R  body axes to world
 BodyLoad body_load(const BodyInWater&, const environment::Fluid&, double t, const Matrix3& R, const PointMotion&);
 
+/// What the water's drag takes from a turning with w, body axes.  [W]
+double turning_drag_power(const Properties&, const Vector3& w);
+
 }   // namespace cablenet::bodies

@@ -25,9 +25,6 @@ int rotation_unknowns(Rotation);
 
 using Matrix4 = Eigen::Matrix4d;
 
-/// What drag takes from a rotation with w, body axes.  [W]
-double drag_power(const Properties&, const Vector3& w);
-
 /// The unknowns that describe an attitude and an angular velocity w (body axes [rad/s]).
 RotationState rotation_state(Rotation, const Quaternion& attitude, const Vector3& w);
 /// The attitude as a unit quaternion, body axes to world.  Its sign follows y continuously.
