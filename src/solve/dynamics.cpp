@@ -33,7 +33,7 @@ Dynamics::Dynamics(system::Assembler& assembler, const scene::Time& time, const 
   if (!time.tolerance || petsc::has_option("-ts_adapt_type", settings.prefix)) return;
   const double span = time.end - time.start, interval = settings.output_interval;
   const double longest = interval > 0 ? std::min(interval, span) : span;
-  control_.emplace(*time.tolerance, time_.step, longest, smallest_step * time_.step);
+  control_.emplace(*time.tolerance, time_.step, longest, smallest_step * time_.step, stepper_.error_order());
   stepper_.control_errors([this](double error, double dt) { return control_->accepts(error, dt); },
                           StepControl::refused_scale);
 }

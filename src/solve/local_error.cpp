@@ -24,8 +24,8 @@ double acceleration_time(const AlphaStep& step, double before) {
 constexpr double memory = 1.5;
 
 /// |x'''| times the time over which a step's error counts [m/s^2]: that in which the motion turns by `memory`, at most
-/// `longest`, at least the step.  A radian takes |x''|/|x'''| or sqrt(|x'|/|x'''|), the shorter one: the first is right in
-/// a uniform motion, the second in a uniform acceleration.
+/// `longest`, at least the step.  A radian takes |x''|/|x'''| or sqrt(|x'|/|x'''|), the shorter one: the first is right
+/// in a uniform motion, the second in a uniform acceleration.
 double weighed_jerk(double dt, double longest, const Vector3& v, const Vector3& a, const Vector3& jerk) {
   const double third = jerk.norm(), over_radian = memory * std::min(a.norm(), std::sqrt(third * v.norm()));
   return std::max(dt * third, std::min(over_radian, longest * third));

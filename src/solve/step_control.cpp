@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace cablenet::solve {
 namespace {
@@ -18,8 +19,8 @@ constexpr int steps_before_growth = 3;
 
 }   // namespace
 
-StepControl::StepControl(double tolerance, double first, double longest, double shortest)
-    : tolerance_(tolerance), limit_(std::min(first, longest)), longest_(longest), shortest_(shortest) {}
+StepControl::StepControl(double tolerance, double first, double longest, double shortest, int order)
+    : tolerance_(tolerance), limit_(std::min(first, longest)), longest_(longest), shortest_(shortest), order_(order) {}
 
 bool StepControl::accepts(double error, double dt) {
   error_ = error;
@@ -32,7 +33,7 @@ bool StepControl::accepts(double error, double dt) {
 
 void StepControl::advance(bool retried) {
   const double wanted = std::min(2 * limit_, longest_), growth = wanted / dt_;
-  const bool grows = !retried && wanted > limit_ && error_ * growth * growth * growth <= safety * tolerance_;
+  const bool grows = !retried && wanted > limit_ && error_ * std::pow(growth, order_) <= safety * tolerance_;
   growing_ = grows ? growing_ + 1 : 0;
   if (retried) limit_ = std::min(limit_, dt_);
   if (growing_ < steps_before_growth) return;

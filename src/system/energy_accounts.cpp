@@ -64,9 +64,9 @@ StepWork EnergyAccounts::work(const NodeData& data) const {
   const AnyNodes nodes{data};
   StepWork sum;
   const auto add = [&](LocalNode node) {
-    const Const3 force(nodes.r(node));
+    const Vector3 force = nodes.r(node);
     sum.path += force.dot(Const3(way_.data() + 3 * at(node)));
-    sum.power += force.dot(Const3(nodes.v(node)));
+    sum.power += force.dot(nodes.v(node));
   };
   for (LocalNode node(0); network_.is_owned(node); ++node) add(node);
   for (const auto& held : network_.prescribed) add(held.node);
@@ -77,7 +77,7 @@ StepWork EnergyAccounts::work(const NodeData& data) const {
     for (int k = body.first_carried; k < body.first_carried + body.carried; ++k) {
       const LocalNode node = network_.carried[at(k)].node;
       add(node);
-      sum.turning += Const3(nodes.r(node)).dot(Const3(way_.data() + 3 * at(node)) - centre);
+      sum.turning += nodes.r(node).dot(Const3(way_.data() + 3 * at(node)) - centre);
     }
   }
   return sum;

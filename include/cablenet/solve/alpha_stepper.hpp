@@ -74,6 +74,7 @@ public:
   AlphaWeights weights() const { return read_step(); }
   /// The weights and the length of the last attempt.
   const AlphaStep& step() const { return step_; }
+  int error_order() const { return local_error_.order(); }
   /// The local error of the last attempt [m].  @pre control_errors
   double error() const { return error_; }
 

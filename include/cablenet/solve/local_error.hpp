@@ -24,9 +24,8 @@ struct StepStart {
 /// alternates in them, and leaves no node astray.  The largest error of any node counts; attitudes of bodies do not.
 ///
 /// Where there is no water the errors of steps add up, period by period.  So each counts over the time in which the
-/// motion turns by 1.5 rad: the tolerance then bounds the error of a period to some 6 times its value, and not that of a
-/// step.  Water's drag forgets what a step has erred.
-/// Tests: tests/parallel/adaptive_test.cpp
+/// motion turns by 1.5 rad: the tolerance then bounds the error of a period to some 6 times its value, and not that of
+/// a step.  Water's drag forgets what a step has erred. Tests: tests/parallel/adaptive_test.cpp
 class LocalError {
 public:
   /// @param longest  over which a step's error can count; 0: each counts by itself [s]
@@ -36,6 +35,8 @@ public:
   /// @param growth  of each unknown's kept acceleration in the step before [m/s^2]; empty where it is not to count
   double estimate(const AlphaStep& step, const partition::LocalNetwork& network, const StepStart& start,
                   std::span<const double> growth, Vec x1);
+  /// The power of the step's length that the estimate follows.
+  int order() const { return longest_ > 0 ? 2 : 3; }
   /// The step that was estimated last is taken.
   void accept();
   void archive(Archive& archive);

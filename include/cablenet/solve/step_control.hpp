@@ -17,7 +17,8 @@ public:
   /// @param first      the first step [s]
   /// @param longest    the longest step that is of use [s]
   /// @param shortest   a step shorter than this is taken whatever its error is [s]
-  StepControl(double tolerance, double first, double longest, double shortest);
+  /// @param order      the power of the step's length that the error follows
+  StepControl(double tolerance, double first, double longest, double shortest, int order);
 
   /// Judges an attempt.  @returns false if a shorter one has to be made
   /// @param error [m]  @param dt [s]
@@ -34,6 +35,7 @@ public:
 
 private:
   double tolerance_, limit_, longest_, shortest_;
+  int order_;
   double error_ = 0, dt_ = 0;                   ///< of the last attempt
   double refused_error_ = 0, refused_dt_ = 0;   ///< of the last attempt that was refused
   int growing_ = 0;                             ///< steps in a row that could have been doubled
