@@ -74,14 +74,16 @@ void put_in_water(const scene::Body& from, double density, Body& body, Network& 
 }
 
 /// The node at which the cables of an attachment end.  It is the body's own node, a carried node, or a free node that a
-/// link ties to a carried one.
+/// link ties to a carried one, or to the body.
 SceneNode add_attachment(const scene::Body& from, const Vector3& offset, Body& body, Network& network) {
   const bool centred = offset.isZero(0);
   if (centred && body.properties.rotation == bodies::Rotation::none) return body.node;
   const SceneNode node = add_carried(from, offset, body, network);
-  if (!from.link_stiffness || centred) return node;
+  if (!from.link || centred) return node;
   const SceneNode end = add_node(network, network.position[node], network.velocity[node]);
-  network.links.push_back({{end, node}, *from.link_stiffness / offset.norm()});
+  const double length = offset.norm();
+  const bool is_bar = from.link->kind == scene::Link::Kind::bar;
+  network.links.push_back({{end, node}, from.link->axial_stiffness / length, is_bar ? length : 0});
   return end;
 }
 

@@ -27,8 +27,8 @@ public:
     add_prescribed();
     add_bodies();
     for (const auto* group : {&inner_, &rim_, &attached_, &attached_copies_, &copies_}) add_elements(*group);
-    for (const auto& [node, stiffness] : links_)
-      here_.links.push_back({{local_of_[node[0]], local_of_[node[1]]}, stiffness});
+    for (const auto& [node, stiffness, bar_length] : links_)
+      here_.links.push_back({{local_of_[node[0]], local_of_[node[1]]}, stiffness, bar_length});
     here_.inner_elements = static_cast<int>(inner_.size());
     here_.attached.first = here_.inner_elements + static_cast<int>(rim_.size());
     here_.own_elements = here_.attached.first + static_cast<int>(attached_.size());

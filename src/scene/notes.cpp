@@ -57,9 +57,25 @@ public:
       return;
     }
     for (std::size_t k = 0; k < attachments.size(); ++k) add(k, notes);
+    add_energy(notes);
   }
 
 private:
+  bool has_bars() const {
+    const Body& body = draft_.thing;
+    if (!body.link || body.link->kind != Link::Kind::bar) return false;
+    for (std::size_t k = 0; k < body.attachments.size(); ++k)
+      if (!body.attachments[k].offset.isZero(0) && usage_.count(busiest(k), k) > 0) return true;
+    return false;
+  }
+
+  void add_energy(std::vector<std::string>& notes) const {
+    if (scene_.is_static || !scene_.output.energy || !draft_.thing.inertia || !has_bars()) return;
+    notes.push_back(draft_.value.said(
+        "a bar turns the body by r x F, which has no potential: energy.total is not conserved, but changes by the work "
+        "of that moment"));
+  }
+
   void add(std::size_t k, std::vector<std::string>& notes) const {
     const Body& body = draft_.thing;
     const auto note = [&](const std::string& text) { notes.push_back(draft_.attachments[k].said(text)); };
@@ -76,8 +92,10 @@ private:
       note(
           "a body without inertia does not turn: the attachment keeps its offset in fixed directions; give inertia if "
           "it should swing");
-    if (body.link_stiffness && is_central)
-      note("it is at the centre of gravity and a link needs a length: this attachment is coupled kinematically");
+    if (body.link && is_central)
+      note(fmt::format(
+          "it is at the centre of gravity and a {} needs a length: this attachment is coupled kinematically",
+          body.link->kind == Link::Kind::bar ? "bar" : "link"));
   }
 
   /// The copy on whose k-th attachment most cables end.

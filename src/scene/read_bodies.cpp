@@ -126,27 +126,39 @@ void read_attachments(BodyKeys& body, const Value& value) {
 struct LinkKeys {
   double axial_stiffness = 0;
 };
-const Table<LinkKeys> link_table(
+const Table<LinkKeys> spring_table(
     "A spring between a cable's end and its attachment.",
     {{"axial_stiffness", number("N", above(0)), required,
-      "EA of the link; its stiffness is EA over the attachment's distance from the centre of gravity.",
+      "The link's EA; its stiffness is EA over the attachment's distance from the centre of gravity.",
+      &LinkKeys::axial_stiffness}});
+const Table<LinkKeys> bar_table(
+    "A bar without mass between a cable's end and the body's centre of gravity, pinned at both.",
+    {{"axial_stiffness", number("N", above(0)), required,
+      "The bar's EA; its unstretched length is the attachment's distance from the centre of gravity.",
       &LinkKeys::axial_stiffness}});
 
 struct CouplingKeys {
-  LinkKeys rigid_link;
+  LinkKeys rigid_link, bar;
 };
-const std::string coupling_expected = "kinematic or {rigid_link: {axial_stiffness: EA [N]}}";
-const Table<CouplingKeys> coupling_table("How cables are fastened to a body.",
-                                         {{"rigid_link", section(link_table), required,
-                                           "A cable's end is a node of its own that a stiff spring holds.",
-                                           &CouplingKeys::rigid_link}});
+const std::string coupling_expected =
+    "kinematic, {rigid_link: {axial_stiffness: EA [N]}} or {bar: {axial_stiffness: EA [N]}}";
+const Table<CouplingKeys> coupling_table(
+    "How cables are fastened to a body.",
+    {{"rigid_link", section(spring_table), absent(""), "A cable's end is a node of its own that a stiff spring holds.",
+      &CouplingKeys::rigid_link},
+     {"bar", section(bar_table), absent(""),
+      "A cable's end is a node of its own that a bar ties to the centre of gravity; the bar's force F turns the body "
+      "by r x F, where r is the attachment's lever.",
+      &CouplingKeys::bar}},
+    Holds::one_key, coupling_expected);
 
-std::optional<double> read_coupling(const Value& value) {
+std::optional<Link> read_coupling(const Value& value) {
   if (value.node.IsScalar() && value.node.Scalar() == "kinematic") return std::nullopt;
   if (!value.node.IsMap()) value.refuse(coupling_expected, "Write one of these.");
   CouplingKeys keys;
   read_rows(value, coupling_table, keys);
-  return keys.rigid_link.axial_stiffness;
+  if (keys.bar.axial_stiffness > 0) return Link{Link::Kind::bar, keys.bar.axial_stiffness};
+  return Link{Link::Kind::spring, keys.rigid_link.axial_stiffness};
 }
 
 const Table<Body> drag_table("The drag of a body along and about its axes, at the centre of gravity.",
@@ -180,7 +192,7 @@ const Table<BodyKeys> body_table(
      {"rotation", choice<Rotation>(), standard, "How the attitude is described to the solver.", &BodyKeys::rotation},
      {"coupling", later(either_form(coupling_expected, {word_form({"kinematic"}), section_form(coupling_table)})),
       absent("kinematic: a cable's end is the attachment"), "How cables are fastened to the body.",
-      [](Body& body, const Value& value) { body.link_stiffness = read_coupling(value); }},
+      [](Body& body, const Value& value) { body.link = read_coupling(value); }},
      Row<BodyKeys>("volume", number("m3", at_least(0)), standard, "The water that the body displaces.",
                    &BodyKeys::volume)
          .in_fluid(),

@@ -9,9 +9,15 @@ namespace cablenet::system {
 /// A slope that is zero whatever the state.
 struct NoSlope {};
 
+/// A slope by the centre of gravity of the body that carries a node.  Attitudes do not move it.
+struct CentralSlope {
+  Matrix3 x;
+};
+
 inline void add_scaled(Matrix3& sum, double s, const Matrix3& K) { sum += s * K; }
 inline void add_scaled(Matrix3& sum, double s, double m) { sum.diagonal().array() += s * m; }
 inline void add_scaled(Matrix3&, double, NoSlope) {}
+inline void add_scaled(Matrix3& sum, double s, const CentralSlope& K) { sum += s * K.x; }
 
 /// K T row by row, which is several times faster than Eigen's product of such shapes.
 inline void add_product(bodies::RowMajor<3, 4>& sum, const Matrix3& K, const bodies::RowMajor<3, 4>& T) {
@@ -19,6 +25,7 @@ inline void add_product(bodies::RowMajor<3, 4>& sum, const Matrix3& K, const bod
 }
 inline void add_product(bodies::RowMajor<3, 4>& sum, double m, const bodies::RowMajor<3, 4>& T) { sum += m * T; }
 inline void add_product(bodies::RowMajor<3, 4>&, NoSlope, const bodies::RowMajor<3, 4>&) {}
+inline void add_product(bodies::RowMajor<3, 4>&, const CentralSlope&, const bodies::RowMajor<3, 4>&) {}
 
 /// The slopes of a kernel of two nodes, whatever its structure: three calls with one shift each.
 struct PairApart {

@@ -35,6 +35,21 @@ bool ForceRule::conserves(const Stage& stage, bool in_water) const {
   return scheme == Scheme::energy_momentum && stage.dt > 0 && stage.alpha_f == 0.5 && !in_water;
 }
 
+BarLaw choose_bar_law(const ForceRule& rule, const Situation& situation) {
+  switch (situation.internal) {
+    case InternalForce::of_step:
+      if (rule.scheme == Scheme::energy_momentum) return BarLaw::conserving;
+      return rule.scheme == Scheme::generalized_alpha ? BarLaw::averaged : BarLaw::of_instant;
+    case InternalForce::of_instant:
+      return BarLaw::of_instant;
+    case InternalForce::of_statics:
+      return BarLaw::of_statics;
+    case InternalForce::none:
+      break;
+  }
+  return BarLaw::none;
+}
+
 LawChoice choose_law(const ForceRule& rule, const Situation& situation, bool is_general, double last_dt) {
   switch (situation.internal) {
     case InternalForce::of_step:

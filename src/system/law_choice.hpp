@@ -12,6 +12,16 @@ using LawChoice = std::variant<elements::EnergyMomentumLaw<false>, elements::Ene
                                elements::AveragedLaw<false>, elements::AveragedLaw<true>, elements::StageLaw<false>,
                                elements::StageLaw<true>, elements::StaticLaw, elements::NoLaw>;
 
+/// How a bar's force is taken in an evaluation.
+enum class BarLaw {
+  none,
+  of_instant,   ///< at the stage
+  averaged,     ///< (1 - alpha_f) f(start) + alpha_f f(end)
+  conserving,   ///< elements::bar_step_force()
+  of_statics
+};
+BarLaw choose_bar_law(const ForceRule& rule, const Situation& situation);
+
 /// @param is_general  some material is damped, or goes slack
 /// @param last_dt     of the step before [s]; 0: there was none
 LawChoice choose_law(const ForceRule& rule, const Situation& situation, bool is_general, double last_dt);

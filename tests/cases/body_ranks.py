@@ -17,6 +17,7 @@ ROWS, COLUMNS = 4, 5
 SCHEMES = {"no scheme named": {}, "generalized_alpha": {"scheme": "generalized_alpha", "spectral_radius": 0.8}}
 CORNERS = {"a": [0.2, 0.1, 0.15], "b": [-0.2, 0.12, 0.1], "c": [-0.15, -0.1, -0.12], "d": [0.18, -0.14, -0.1]}
 LINK = {"rigid_link": {"axial_stiffness": 1e5}}
+BAR = {"bar": {"axial_stiffness": 1e5}}
 ROPE = {"mass_per_length": 0.05, "axial_stiffness": 5e3, "axial_damping": 5}
 
 
@@ -34,16 +35,16 @@ def waves(i, sizes):
 
 def body(i):
     """The keys of body i.  Every fifth body is a point mass, with or without an arm.  Of the others some have Euler
-    angles, and some have links."""
+    angles, and some have springs or bars."""
     keys = {"mass": 1 + 0.1 * i, "position": place(i), "velocity": waves(i, (0.5, 0.4, 0.3)),
-            "force": waves(i + 1, (1, 2, 3)), "attachments": CORNERS}
+            "force": waves(i + 1, (1, 2, 3)), "attachments": CORNERS,
+            "coupling": LINK if i % 4 == 2 else BAR if i in (0, 4, 13) else "kinematic"}
     if i % 5 == 3:
         return keys if i % 2 else {**keys, "attachments": {name: [0, 0, 0] for name in CORNERS}}
     roll, pitch, yaw = waves(i + 2, (20, 15, 40))
     return {**keys, "inertia": [0.03, 0.04, 0.05, 0.003, -0.002, 0.001 * (i % 4)],
             "orientation": {"roll": roll, "pitch": pitch, "yaw": yaw}, "angular_velocity": waves(i + 3, (2, 1, 3)),
-            "torque": [0.01, -0.02, 0.03], "rotation": "euler" if i % 3 == 1 else "quaternion",
-            "coupling": LINK if i % 4 == 2 else "kinematic"}
+            "torque": [0.01, -0.02, 0.03], "rotation": "euler" if i % 3 == 1 else "quaternion"}
 
 
 def hangers():

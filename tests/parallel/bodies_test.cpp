@@ -28,7 +28,9 @@ std::string scene_text(const std::string& extra, const std::string& rope) {
          body +
          "position: [4, 0.5, -1.5], angular_velocity: [0.1, 0.2, -0.6], attachments: {p: [0.2, 0, "
          "0.1], q: [0, 0.2, -0.3]}}\n"
-         "  bob: {mass: 2, position: [1, 1, -3], orientation: {pitch: 40}, attachments: {top: [0, 0, 0.4], middle: "
+         "  bob: {mass: 2, " +
+         extra +
+         "position: [1, 1, -3], orientation: {pitch: 40}, attachments: {top: [0, 0, 0.4], middle: "
          "[0, 0, 0]}}\n"
          "cables:\n"
          "  first: {type: " +
@@ -93,7 +95,9 @@ std::vector<Case> cases() {
       {"Quaternion", ""},
       {"Euler", "rotation: euler, "},
       {"LinkedQuaternion", "coupling: {rigid_link: {axial_stiffness: 3000}}, "},
-      {"LinkedEuler", "rotation: euler, coupling: {rigid_link: {axial_stiffness: 3000}}, "}};
+      {"LinkedEuler", "rotation: euler, coupling: {rigid_link: {axial_stiffness: 3000}}, "},
+      {"BarredQuaternion", "coupling: {bar: {axial_stiffness: 3000}}, "},
+      {"BarredEuler", "rotation: euler, coupling: {bar: {axial_stiffness: 3000}}, "}};
   for (const auto& [name, extra] : ways)
     for (const std::string rope : {"rope", "damped", "slack"}) {
       all.push_back({name + "EnergyMomentum_" + rope, extra, rope, Scheme::energy_momentum, 1, 0.05});

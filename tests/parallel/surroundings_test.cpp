@@ -89,11 +89,14 @@ cables:
 }
 
 const std::string link = "coupling: {rigid_link: {axial_stiffness: 3000}}, ";
+const std::string bar = "coupling: {bar: {axial_stiffness: 3000}}, ";
 const std::vector<Named> things{{"Branched", branched},
                                 {"Quaternion", bodies_text("")},
                                 {"Euler", bodies_text("rotation: euler, ")},
                                 {"LinkedQuaternion", bodies_text(link)},
-                                {"LinkedEuler", bodies_text("rotation: euler, " + link)}};
+                                {"LinkedEuler", bodies_text("rotation: euler, " + link)},
+                                {"BarredQuaternion", bodies_text(bar)},
+                                {"BarredEuler", bodies_text("rotation: euler, " + bar)}};
 
 struct Method {
   std::string name;

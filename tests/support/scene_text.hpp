@@ -92,7 +92,8 @@ private:
   void add(const scene::Body& body) {
     add(body.name, body.mass, body.inertia, body.position, body.attitude.toRotationMatrix().eval(), body.velocity);
     add(body.angular_velocity, body.force, body.torque, body.rotation, body.volume, body.center_of_buoyancy);
-    add(body.linear_drag, body.quadratic_drag, body.added_mass, body.link_stiffness);
+    add(body.linear_drag, body.quadratic_drag, body.added_mass);
+    if (body.link) add(static_cast<int>(body.link->kind), body.link->axial_stiffness);
     for (const scene::Attachment& attachment : body.attachments) add(attachment.name, attachment.offset);
   }
   void add(const scene::Cable& cable) {

@@ -52,7 +52,8 @@ TEST(ReadBodies, EveryKey) {
   EXPECT_EQ(fish.attachments[1].name, "tail");
   EXPECT_EQ(fish.attachments[1].offset, Vector3(-1, 0, 0));
   EXPECT_EQ(fish.rotation, Rotation::euler);
-  EXPECT_EQ(fish.link_stiffness, 1e9);
+  EXPECT_EQ(fish.link.value().kind, Link::Kind::spring);
+  EXPECT_EQ(fish.link->axial_stiffness, 1e9);
 }
 
 TEST(ReadBodies, Defaults) {
@@ -63,8 +64,11 @@ TEST(ReadBodies, Defaults) {
     EXPECT_EQ(vector, Vector3::Zero());
   EXPECT_TRUE(fish.attachments.empty());
   EXPECT_EQ(fish.rotation, Rotation::quaternion);
-  EXPECT_FALSE(fish.link_stiffness);
-  EXPECT_FALSE(body_of("coupling: kinematic").link_stiffness);
+  EXPECT_FALSE(fish.link);
+  EXPECT_FALSE(body_of("coupling: kinematic").link);
+  const Body barred = body_of("coupling: {bar: {axial_stiffness: 3e7}}");
+  EXPECT_EQ(barred.link.value().kind, Link::Kind::bar);
+  EXPECT_EQ(barred.link->axial_stiffness, 3e7);
   EXPECT_EQ(body_of("inertia: [1, 2, 3]").inertia.value(), Matrix3(Vector3(1, 2, 3).asDiagonal()));
   EXPECT_EQ(body_of("angular_velocity: [0, 0, 0], torque: [0, 0, 0]").torque, Vector3::Zero());
 }
@@ -194,7 +198,28 @@ TEST(ReadBodies, NotesOfPointMassesAndLinks) {
                   "         coupling: {rigid_link: {axial_stiffness: 1e9}}}\n"),
             Notes{"body.yaml:4: bodies.fish.attachments.top: it is at the centre of gravity and a link needs a length: "
                   "this attachment is coupled kinematically"});
+  EXPECT_EQ(notes("  fish: {mass: 1, position: [9, 0, 0], inertia: [1, 1, 1], attachments: {top: [0, 0, 0]},\n"
+                  "         coupling: {bar: {axial_stiffness: 1e9}}}\n"),
+            Notes{"body.yaml:4: bodies.fish.attachments.top: it is at the centre of gravity and a bar needs a length: "
+                  "this attachment is coupled kinematically"});
   EXPECT_EQ(notes("  fish: {mass: 1, position: [9, 0, 0], attachments: {top: [0, 0, 0]}}\n"), Notes{});
+}
+
+TEST(ReadBodies, BarsThatTurnABodyHaveANoteOfEnergy) {
+  const std::string energy = "output: {energy: true}\n";
+  const auto body = [](const std::string& inertia, const std::string& offset, const std::string& coupling) {
+    return "  fish: {mass: 1, position: [9, 0, 0], " + inertia + "attachments: {top: " + offset + "}, coupling: {" +
+           coupling + ": {axial_stiffness: 1e9}}}\n";
+  };
+  const std::string turns = "inertia: [1, 1, 1], ", away = "[0, 0, 0.1]";
+  EXPECT_EQ(
+      notes(body(turns, away, "bar"), energy),
+      Notes{"body.yaml:4: bodies.fish: a bar turns the body by r x F, which has no potential: energy.total is not "
+            "conserved, but changes by the work of that moment"});
+  EXPECT_EQ(notes(body(turns, away, "bar")), Notes{});
+  EXPECT_EQ(notes(body(turns, away, "rigid_link"), energy), Notes{});
+  for (const std::string& no_moment : {body("", away, "bar"), body(turns, "[0, 0, 0]", "bar")})
+    for (const std::string& note : notes(no_moment, energy)) EXPECT_EQ(note.find("potential"), std::string::npos);
 }
 
 TEST(ReadBodies, RepeatedBodiesHaveOneNote) {

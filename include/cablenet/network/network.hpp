@@ -55,12 +55,16 @@ struct CarriedNode {
   Vector3 offset;   ///< r from the centre of gravity, body axes [m]
 };
 
-/// The papers' massless stiff element.  The force stiffness * distance pulls a node and a carried node together.
-/// Source: Tonin & Braun, CILAMCE 2020, eqs 19, 20.
+/// What ties a cable's end to an attachment r.  A spring pulls the two together by stiffness * distance.  The papers'
+/// bar lies between the cable's end and the body's centre of gravity.  Its force F acts there and turns the body by
+/// r x F, which together is the force F at the attachment.  Source: Tonin & Braun, CILAMCE 2020, eqs 19, 20.
 template <class Node>
 struct Link {
   std::array<Node, 2> node;   ///< the cable's end, the carried node
   double stiffness;           ///< EA/|r| [N/m]
+  double bar_length = 0;      ///< of an unstretched bar, |r| [m]; 0: a spring
+
+  bool is_bar() const { return bar_length > 0; }
 };
 
 /// The elements of a cable or a net: [first_element, first_element + elements).
