@@ -14,6 +14,7 @@ cablenet_script_test(verification_free_bodies verification/free_bodies.py 120 ve
 cablenet_script_test(verification_pitch verification/pitch.py 120 verification)
 cablenet_script_test(verification_body_pendulum verification/body_pendulum.py 120 verification)
 cablenet_script_test(verification_rigid_links verification/rigid_links.py 120 verification)
+cablenet_script_test(verification_bars verification/bars.py 120 verification)
 cablenet_script_test(verification_hung_body verification/hung_body.py 120 verification)
 cablenet_script_test(verification_low_langley verification/low_langley.py 120 verification)
 cablenet_script_test(verification_water_bodies verification/water_bodies.py 120 verification)
