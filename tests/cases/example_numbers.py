@@ -83,6 +83,12 @@ def cable_body_pendulum(c):
     c.near("first acceleration", c.says("the first acceleration is # rad/s2"), abs(run["alpha"][0]), 1e-4)
     c.near("kinetic energy", c.says("the kinetic energy reaches # J"), run["energy.kinetic"].max())
     c.near("energy's fall", c.says("`energy.total` falls by # J"), run["energy.total"][0] - run["energy.total"][-1], 0.1)
+    for label, scene in (("kinematic", "scene.yaml"), ("rigid_link", "link.yaml"), ("bar", "bar.yaml")):
+        run = c.run(scene)
+        run.columns["phi"] = np.arctan2(run["cube.x"], -run["cube.z"])
+        turn = -2 * np.arctan2(run["cube.qy"], run["cube.qw"]) - run["phi"]
+        near_row(c, "couplings", f"`{label}`", [run.off(reference, "phi"), np.degrees(np.abs(turn).max()),
+                                                drift(run["energy.total"])], 0.1)
 
 
 def conical_pendulum(c):
