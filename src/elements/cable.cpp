@@ -1,6 +1,6 @@
 #include "cablenet/elements/cable.hpp"
 
-#include "cablenet/elements/cable_step.hpp"
+#include "cablenet/elements/energy_momentum_step.hpp"
 
 namespace cablenet::elements {
 

@@ -14,10 +14,12 @@ using petsc::check;
 /// Before PETSc 3.22 TSALPHA2's estimate of the first acceleration is twice what it should be.
 constexpr double start_factor = PETSC_VERSION_LT(3, 22, 0) ? 0.5 : 1.0;
 
-/// Over which a step's error can count.  [s]
+/// Over which a step's error can count.  Water's drag forgets it, and so does the damping by which a network settles.
+/// [s]
 double memory_of(const partition::LocalNetwork& network, const scene::Time& time) {
   constexpr double part = 0.1;
-  return network.surroundings.fluid ? 0 : part * (time.end - time.start);
+  const bool forgets = network.surroundings.fluid || network.held_time;
+  return forgets ? 0 : part * (time.end - time.start);
 }
 
 /// So many halvings bring an adaptive step below any that is of use.
@@ -30,6 +32,15 @@ void archive_vector(Archive& archive, const char* name, Vec vector) {
   check(VecGetArray(vector, &values));
   archive.item(name, std::span(values, static_cast<std::size_t>(size)));
   check(VecRestoreArray(vector, &values));
+}
+
+/// PETSc takes -ts_alpha_radius for Chung and Hulbert's weights, whatever the scheme.
+void keep_weights(TS stepper, const scene::Time& time, const char* prefix) {
+  const auto names = {"-ts_alpha_alpha_m", "-ts_alpha_alpha_f", "-ts_alpha_gamma", "-ts_alpha_beta"};
+  const auto is_given = [&](const char* name) { return petsc::has_option(name, prefix); };
+  if (!is_given("-ts_alpha_radius") || std::any_of(names.begin(), names.end(), is_given)) return;
+  const AlphaWeights weights = weights_of(time);
+  check(TSAlpha2SetParams(stepper, weights.alpha_m, weights.alpha_f, weights.gamma, weights.beta));
 }
 
 }   // namespace
@@ -46,7 +57,7 @@ AlphaStepper::AlphaStepper(const system::Assembler& assembler, StageEquations& e
   check(SNESSetComputeInitialGuess(snes_, begin_solve, this));
   equations_.configure(snes_);
   check(TSSetFromOptions(stepper_));
-  keep_weights(time, prefix);
+  keep_weights(stepper_, time, prefix);
   equations_.adopt_options();
   check(TSAdaptGetScaleSolveFailed(adapt_, &failed_scale_));
   keeps_mean_acceleration_ = read_step().is_centred();
@@ -124,15 +135,6 @@ void AlphaStepper::restart() {
 void AlphaStepper::restart_with(Vec acceleration) {
   check(VecCopy(acceleration, start_acceleration_));
   check(TSRestartStep(stepper_));
-}
-
-/// PETSc takes -ts_alpha_radius for Chung and Hulbert's weights, whatever the scheme.
-void AlphaStepper::keep_weights(const scene::Time& time, const char* prefix) {
-  const auto names = {"-ts_alpha_alpha_m", "-ts_alpha_alpha_f", "-ts_alpha_gamma", "-ts_alpha_beta"};
-  const auto is_given = [&](const char* name) { return petsc::has_option(name, prefix); };
-  if (!is_given("-ts_alpha_radius") || std::any_of(names.begin(), names.end(), is_given)) return;
-  const AlphaWeights weights = weights_of(time);
-  check(TSAlpha2SetParams(stepper_, weights.alpha_m, weights.alpha_f, weights.gamma, weights.beta));
 }
 
 void AlphaStepper::begin(double t, double dt) {

@@ -21,7 +21,7 @@ double acceleration_time(const AlphaStep& step, double before) {
 }
 
 /// Radians of a motion over which the errors of its steps add up.
-constexpr double memory = 1.5;
+constexpr double memory = 2;
 
 /// |x'''| times the time over which a step's error counts [m/s^2]: that in which the motion turns by `memory`, at most
 /// `longest`, at least the step.  A radian takes |x''|/|x'''| or sqrt(|x'|/|x'''|), the shorter one: the first is right

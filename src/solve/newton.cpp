@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 #include "cablenet/base/errors.hpp"
 #include "cablenet/petsc/options.hpp"
 #include "failed_part.hpp"
+#include "snes_options.hpp"
 
 namespace cablenet::solve {
 namespace {
@@ -16,47 +16,27 @@ namespace {
 using petsc::check;
 
 /// Newton's tolerance over the forces.
-constexpr double relative_force_tolerance = 1e-12;
+constexpr double relative_force_tolerance = 3e-13;
 
-/// A solve goes on as long as the residual has been halved within the last `patience` corrections.
-constexpr PetscInt patience = 12, most_iterations = 200;
+/// Beside NewtonProgress, which ends what gets nowhere.
+constexpr PetscInt most_iterations = 200;
 
-/// Two residuals are taken for the same that differ by this part.
-constexpr double same_residual = 0.1;
+/// In a cycle, over the whole one.
+constexpr double shortest_correction = 0.125;
 
 /// The first attempt that searches along its corrections.
 constexpr int first_search = 4;
 
 /// Over the rounding of positions: a correction below this is none.
-constexpr double smallest_correction = 4;
+constexpr double smallest_correction = 1;
 
 /// What SNESSetLagJacobian calls never to compute a tangent.
 constexpr PetscInt never = -1;
-
-/// Options of SNES, without "-" and "snes_", with which this class goes on making the tangents.  With any other option
-/// of SNES, SNES makes them.
-constexpr std::array harmless_options{"atol",
-                                      "rtol",
-                                      "stol",
-                                      "max_it",
-                                      "max_funcs",
-                                      "max_fail",
-                                      "divergence_tolerance",
-                                      "error_if_not_converged",
-                                      "type",
-                                      "converged_reason"};
-constexpr std::array harmless_beginnings{"monitor", "view", "linesearch"};
 
 const char* prefix_of(SNES snes) {
   const char* prefix = nullptr;
   check(SNESGetOptionsPrefix(snes, &prefix));
   return prefix == nullptr ? "" : prefix;
-}
-
-bool is_harmless(const std::string& option) {
-  const auto begins = [&](const char* beginning) { return option.starts_with(beginning); };
-  return std::find(harmless_options.begin(), harmless_options.end(), option) != harmless_options.end() ||
-         std::any_of(harmless_beginnings.begin(), harmless_beginnings.end(), begins);
 }
 
 bool is_of_type(PetscObject object, const char* type) {
@@ -114,7 +94,7 @@ bool Newton::makes_tangents(const char* prefix) const {
   const std::vector<std::string> given = petsc::given_options();
   return std::all_of(given.begin(), given.end(), [&](const std::string& name) {
     if (name.starts_with(nested)) return false;
-    return !name.starts_with(beginning) || is_harmless(name.substr(beginning.size()));
+    return !name.starts_with(beginning) || is_harmless_snes_option(name.substr(beginning.size()));
   });
 }
 
@@ -171,7 +151,6 @@ void Newton::begin_solve(const AlphaStep& step, const StepStart& start, Vec gues
   step_ = step;
   evaluations_ = 0;
   tangents_ = 0;
-  best_at_ = 0;
   tangent_at_ = {};
   reuse_.begin_solve(step.is_start() ? -step.dt : step.dt, is_retry_);
   if (step.is_start()) return;
@@ -225,35 +204,24 @@ system::TangentRequest Newton::tangent_request() {
 system::TurningRule Newton::turning() const {
   if (!reuse_.computes_always() && !is_retry_) return {};
   system::TurningRule rule{.is_predicted = true, .is_first = tangents_ == 0};
-  if (is_retry_ || cycles_) rule.least = 0;
+  if (is_retry_ || progress_.cycles()) rule.least = 0;
   return rule;
 }
 
-bool Newton::makes_progress(PetscInt iteration, double norm) {
-  if (iteration == 0 || norm < 0.5 * best_norm_) {
-    best_norm_ = norm;
-    best_at_ = iteration;
-  }
-  return iteration - best_at_ < patience;
-}
-
-/// An element that goes slack and taut by turns sends Newton's method from one residual to another and back.  Half
-/// corrections end that.
-void Newton::break_cycle(PetscInt iteration, double norm) {
-  const bool returns = iteration >= 2 && std::abs(norm - norms_[1]) < same_residual * norm;
-  norms_ = {norm, norms_[0]};
-  cycles_ = iteration > 0 && (cycles_ || returns);
-  const bool shortens = returns && !is_shortened_;
-  if (shortens == is_shortened_ || user_line_search_) return;
+/// Shorter corrections lead out of a cycle, and whole ones go on from there.
+void Newton::shorten_where_it_returns() {
+  const double before = length_;
+  if (progress_.returns()) length_ = std::max(0.5 * length_, shortest_correction);
+  if (progress_.is_best()) length_ = 1;
+  if (length_ == before || user_line_search_) return;
   SNESLineSearch search = nullptr;
   check(SNESGetLineSearch(snes_, &search));
-  check(SNESLineSearchSetDamping(search, shortens ? 0.5 : 1));
-  is_shortened_ = shortens;
+  check(SNESLineSearchSetDamping(search, length_));
 }
 
 /// Whatever the residual, which such a correction cannot bring down.
 bool Newton::is_at_positions_rounding(double correction, double positions) const {
-  const bool is_full = !searches_ && !user_line_search_ && !is_shortened_;
+  const bool is_full = !searches_ && !user_line_search_ && length_ == 1;
   return is_full && correction <= smallest_correction * std::numeric_limits<double>::epsilon() * positions;
 }
 
@@ -262,7 +230,7 @@ bool Newton::is_at_rounding(PetscInt iteration, double norm) {
   // A careful search cannot go below rounding, and would call that a failure.
   const bool careful = searches_ || (user_line_search_ && iteration > 0);
   const bool settled =
-      convergence_.is_at_rounding(static_cast<int>(iteration), norm, noise, careful, reuse_.was_kept());
+      convergence_.is_at_rounding(static_cast<int>(iteration), norm, noise, careful, converges_linearly());
   if (iteration > 0) reuse_.note_correction(static_cast<int>(iteration), convergence_.contraction());
   return settled;
 }
@@ -273,11 +241,11 @@ SNESConvergedReason Newton::test(PetscInt iteration, PetscReal xnorm, PetscReal 
   check(SNESConvergedDefault(snes_, iteration, xnorm, snorm, fnorm, &reason, nullptr));
   const bool linear_and_solved = step_.is_start() && iteration >= 1;
   bool settled = !step_.is_start() && is_at_rounding(iteration, fnorm);
-  if (iteration > 0 && !reuse_.was_kept()) settled = settled || is_at_positions_rounding(snorm, xnorm);
+  if (iteration > 0 && !converges_linearly()) settled = settled || is_at_positions_rounding(snorm, xnorm);
   if (reason == SNES_CONVERGED_ITERATING && (settled || linear_and_solved)) reason = SNES_CONVERGED_FNORM_ABS;
-  break_cycle(iteration, fnorm);
-  const bool has_budget = makes_progress(iteration, fnorm);
-  if (reason == SNES_CONVERGED_ITERATING && !has_budget) reason = SNES_DIVERGED_MAX_IT;
+  progress_.note(static_cast<int>(iteration), fnorm);
+  shorten_where_it_returns();
+  if (reason == SNES_CONVERGED_ITERATING && !progress_.goes_on()) reason = SNES_DIVERGED_MAX_IT;
   return reason;
 }
 

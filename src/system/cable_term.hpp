@@ -2,7 +2,7 @@
 #include <tuple>
 #include <vector>
 
-#include "cablenet/elements/force_laws.hpp"
+#include "cablenet/elements/energy_momentum_law.hpp"
 #include "term.hpp"
 
 namespace cablenet::system {

@@ -1,6 +1,7 @@
 #pragma once
 #include <variant>
 
+#include "cablenet/elements/energy_momentum_law.hpp"
 #include "cablenet/elements/static_law.hpp"
 #include "cablenet/system/force_rule.hpp"
 #include "cablenet/system/situation.hpp"

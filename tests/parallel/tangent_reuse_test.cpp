@@ -4,6 +4,7 @@
 
 #include "../support/networks.hpp"
 #include "cablenet/solve/newton_convergence.hpp"
+#include "cablenet/solve/newton_progress.hpp"
 
 using namespace cablenet;
 using namespace cablenet::test;
@@ -105,4 +106,30 @@ TEST(NewtonConvergence, EndsWhereNothingIsGained) {
   EXPECT_FALSE(ends({1e-2, 1e-4, 6e-8, 5e-8}, false));
   EXPECT_FALSE(ends({1e-2, 1e-4, 6e-9, 5e-9}, true)) << "a new tangent may gain something";
   EXPECT_TRUE(ends({1e-2, 6e-9}, false, true)) << "a retry's careful line search";
+}
+
+TEST(NewtonProgress, GoesOnAsLongAsTheResidualFalls) {
+  solve::NewtonProgress progress;
+  double norm = 1;
+  for (int i = 0; i < 100; ++i, norm *= 0.96) {
+    progress.note(i, norm);
+    EXPECT_TRUE(progress.goes_on()) << "correction " << i;
+  }
+  for (int i = 100; i < 130; ++i) progress.note(i, norm);
+  EXPECT_FALSE(progress.goes_on());
+  progress.note(0, 5 * norm);
+  EXPECT_TRUE(progress.goes_on()) << "in the next solve";
+}
+
+TEST(NewtonProgress, SeesThatAResidualReturns) {
+  solve::NewtonProgress progress;
+  const std::vector<double> norms{5, 1, 29, 1.8, 29.1, 14, 3};
+  const std::vector<bool> returns{false, false, false, false, true, false, false};
+  for (std::size_t i = 0; i < norms.size(); ++i) {
+    progress.note(static_cast<int>(i), norms[i]);
+    EXPECT_EQ(progress.returns(), returns[i]) << "correction " << i;
+    EXPECT_EQ(progress.cycles(), i >= 4) << "correction " << i;
+  }
+  progress.note(0, 3);
+  EXPECT_FALSE(progress.cycles()) << "in the next solve";
 }

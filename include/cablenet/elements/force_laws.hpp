@@ -1,22 +1,9 @@
 #pragma once
-#include <limits>
-
-#include "cablenet/elements/cable_step.hpp"
+#include "cablenet/elements/turning.hpp"
 
 /// How an element's internal force is taken over a step, with its tangent by the stage's chord.  `general` as in
 /// cable_step.hpp; w, the velocity of node 2 relative to node 1, is zero and not looked at where it is false.
 namespace cablenet::elements {
-
-/// Which tension turns the chord in a tangent.  Newton's method needs fewer corrections with the tension that the last
-/// tangent of the solve lets expect at the present chord than with the force's own, which turning has falsified.  The
-/// solution is the same.
-/// Source: Magisano, Leonetti & Garcea, Comput. Methods Appl. Mech. Engng 313 (2017) 319.
-struct Turning {
-  bool is_predicted = false;
-  const Vector3* last = nullptr;   ///< the chord's direction at the last tangent; null at a solve's first one
-  Vector3* now = nullptr;          ///< where the present direction is kept
-  double least = -std::numeric_limits<double>::infinity();   ///< that the predicted tension is taken for [N]
-};
 
 /// What a law is told about an element at the stage.
 struct ElementStage {
@@ -28,14 +15,6 @@ struct ElementStage {
   Turning turning;
 };
 
-/// The length that a chord is expected to have, with its direction kept for the next time.
-/// @param at_first  that of a solve's first tangent [m]
-inline double expected_length(const Turning& turning, const Stretch& s, double at_first) {
-  const double length = turning.last == nullptr ? at_first : turning.last->dot(s.d);
-  *turning.now = 1 / s.l * s.d;
-  return length;
-}
-
 /// What a law keeps of an element at the step's start.
 struct NoStart {};
 template <bool general>
@@ -45,10 +24,6 @@ struct AveragedStart {
 template <>
 struct AveragedStart<true> {
   Vector3 d, f, w;
-};
-struct ReachedStart {
-  Stretch s;
-  double grown;   ///< the change of the elongation that carries tension, in the step before [m]; see EnergyMomentumLaw
 };
 
 /// What is told at a step's start.
@@ -107,44 +82,6 @@ struct AveragedLaw {
     const bool in_domain = end.template evaluate<with_tangent>({}, at_end, f, K);
     f = (1 - alpha_f) * start.f + alpha_f * f;
     return in_domain;
-  }
-};
-
-/// Energy-momentum, at alpha_f = 1/2.
-template <bool is_general>
-struct EnergyMomentumLaw {
-  static constexpr bool general = is_general;
-  using Start = ReachedStart;
-  Tangent kind;
-  double alpha_f;
-  double dt;
-  double xi;
-  double pace;     ///< over ReachedStart::grown: what is expected to be carried in this step
-  bool is_first;   ///< No step came before.  The rate of the elongation [m/s] stands in for what has grown in one.
-
-  void begin(const ElementStart& e, Start& start) const {
-    const Stretch s = stretch(e.d);
-    const double carried = carried_elongation<general>(e.material, s.l - e.L);
-    start.grown = carried - carried_elongation<general>(e.material, start.s.l - e.L);
-    if (is_first) start.grown = carries<general>(e.material, s.l - e.L) ? s.d.dot(e.w) / s.l : 0.0;
-    start.s = s;
-  }
-  template <bool with_tangent>
-  bool evaluate(const Start& start, const ElementStage& e, Vector3& f, Matrix3& K) const {
-    const Stretch& s0 = start.s;
-    const Stretch s1 = stretch(s0.d + (e.d - s0.d) / alpha_f);
-    LengthStep step{s0.l, s1.l, dt, xi, pace * start.grown};
-    const TensionSlope tension = step_tension<general>(e.material, e.L, step);
-    f = energy_momentum_force(tension, s0, s1);
-    if constexpr (with_tangent) {
-      double turning = tension.T;
-      if (e.turning.is_predicted) {
-        step.l1 = expected_length(e.turning, s1, s0.l);
-        turning = std::max(step_tension<general>(e.material, e.L, step).T, e.turning.least);
-      }
-      K = 1 / alpha_f * energy_momentum_tangent(tension.slope, turning, s0, s1, kind);
-    }
-    return s1.l > 0;
   }
 };
 

@@ -83,7 +83,6 @@ public:
 
 private:
   void configure(const scene::Time& time, long most_steps, const char* prefix);
-  void keep_weights(const scene::Time& time, const char* prefix);
   void restart_with(Vec acceleration);
   StepStart step_start() const { return {x_, v_, a_, keeps_mean_acceleration_ ? expected_a_ : a_}; }
   AlphaStep read_step() const;
@@ -99,27 +98,23 @@ private:
   const partition::LocalNetwork& network_;
   StageEquations& equations_;
   system::Vector x_, v_, a_;
-  system::Vector expected_a_;   ///< of the next step
-  system::Vector own_a_;        ///< the method's own, where a_ is the mean and the further path depends on it
-  system::Vector x0_, v0_;      ///< at the step's start
+  system::Vector expected_a_, own_a_;   ///< of the next step; the method's own, where the further path depends on it
+  system::Vector x0_, v0_;              ///< at the step's start
   system::Vector start_acceleration_;
   TimeStepper stepper_;
   SNES snes_ = nullptr;   ///< the stepper's
   TSAdapt adapt_ = nullptr;
   AlphaStep step_{};
-  bool keeps_mean_acceleration_ = false;
-  bool keeps_own_acceleration_ = false;
+  bool keeps_mean_acceleration_ = false, keeps_own_acceleration_ = false;
   bool shows_while_solving_ = true;
-  int attempts_ = 0;   ///< at the running step
-  int repeats_ = 0;    ///< of them, those that did not shorten it
+  int attempts_ = 0, repeats_ = 0;   ///< at the running step; repeats did not shorten it
   double t_ = 0, dt_ = 0;
   long rejected_ = 0, newton_ = 0, linear_ = 0;   ///< so far
   std::function<bool(double, double)> accepts_;
-  double refused_scale_ = 1;
   PetscReal failed_scale_ = 1;   ///< the length of the next attempt over one at which Newton's method failed
   MeanAcceleration mean_acceleration_;
   LocalError local_error_;
-  double error_ = 0;
+  double error_ = 0, refused_scale_ = 1;
 };
 
 }   // namespace cablenet::solve

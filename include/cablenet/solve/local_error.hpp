@@ -24,7 +24,7 @@ struct StepStart {
 /// alternates in them, and leaves no node astray.  The largest error of any node counts; attitudes of bodies do not.
 ///
 /// Where there is no water the errors of steps add up, period by period.  So each counts over the time in which the
-/// motion turns by 1.5 rad: the tolerance then bounds the error of a period to some 6 times its value, and not that of
+/// motion turns by 2 rad: the tolerance then bounds the error of a period to some 6 times its value, and not that of
 /// a step.  Water's drag forgets what a step has erred. Tests: tests/parallel/adaptive_test.cpp
 class LocalError {
 public:

@@ -1,13 +1,13 @@
 #pragma once
 #include <petscsnes.h>
 
-#include <array>
 #include <optional>
 #include <string>
 
 #include "cablenet/petsc/object_state.hpp"
 #include "cablenet/solve/linear_solver.hpp"
 #include "cablenet/solve/newton_convergence.hpp"
+#include "cablenet/solve/newton_progress.hpp"
 #include "cablenet/solve/observers.hpp"
 #include "cablenet/solve/stage_equations.hpp"
 #include "cablenet/solve/tangent_reuse.hpp"
@@ -67,8 +67,9 @@ private:
   SNESConvergedReason test(PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm);
   system::TangentRequest tangent_request();
   system::TurningRule turning() const;
-  void break_cycle(PetscInt iteration, double norm);
-  bool makes_progress(PetscInt iteration, double norm);
+  /// The last tangent is not that of the equations: it was kept, or compression turns nothing in it.
+  bool converges_linearly() const { return reuse_.was_kept() || is_retry_ || progress_.cycles(); }
+  void shorten_where_it_returns();
   bool is_at_positions_rounding(double correction, double positions) const;
   system::Stage stage() const { return {t_, step_.dt, step_.alpha_f}; }
   static PetscErrorCode converged(SNES, PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm,
@@ -81,24 +82,21 @@ private:
   SNES snes_ = nullptr;
   TangentReuse reuse_;
   NewtonConvergence convergence_;
+  NewtonProgress progress_;
   AlphaStep step_{};
   double t_ = 0;                                  ///< of the step's start [s]
   Vec x_ = nullptr, v_ = nullptr, a_ = nullptr;   ///< at the stage of the last residual
   petsc::VectorState tangent_at_;                 ///< of the x at which a residual brought its tangent along
   long evaluations_ = 0;                          ///< of the residual in the running solve
   long tangents_ = 0;                             ///< of the running solve
-  double best_norm_ = 0;                          ///< of the running solve's residuals [N]
-  std::array<double, 2> norms_{};                 ///< of its last two residuals [N]
-  PetscInt best_at_ = 0;                          ///< its iteration
   long expected_iterations_ = 1;                  ///< as many as the last step took
   double largest_coordinate_ = 0;                 ///< [m]
   int outside_element_ = -1;     ///< scene number of an element that lost its length in the running attempt
   int outside_body_ = -1;        ///< likewise of a body that turned out of its domain
   SolverNumber singular_node_;   ///< solver number: where the tangent was singular
   bool is_retry_ = false;
-  bool searches_ = false;       ///< along its corrections
-  bool cycles_ = false;         ///< The running solve came back to a residual that it had.
-  bool is_shortened_ = false;   ///< The next correction is halved.
+  bool searches_ = false;   ///< along its corrections
+  double length_ = 1;       ///< of the next correction, over the whole one
   bool makes_tangents_ = false;
   bool combines_ = false;   ///< each residual but a solve's last brings its tangent along
   bool user_line_search_ = false;

@@ -1,0 +1,53 @@
+#pragma once
+#include <algorithm>
+
+#include "cablenet/elements/energy_momentum_step.hpp"
+#include "cablenet/elements/force_laws.hpp"
+
+namespace cablenet::elements {
+
+/// What the law keeps of an element at a step's start.
+struct ReachedStart {
+  Stretch s;
+  double grown;   ///< the change of the elongation that carries tension, in the step before [m]; see EnergyMomentumLaw
+};
+
+/// Energy-momentum, at alpha_f = 1/2.
+template <bool is_general>
+struct EnergyMomentumLaw {
+  static constexpr bool general = is_general;
+  using Start = ReachedStart;
+  Tangent kind;
+  double alpha_f;
+  double dt;
+  double xi;
+  double pace;     ///< over ReachedStart::grown: what is expected to be carried in this step
+  bool is_first;   ///< No step came before.  The rate of the elongation [m/s] stands in for what has grown in one.
+
+  void begin(const ElementStart& e, Start& start) const {
+    const Stretch s = stretch(e.d);
+    const double carried = carried_elongation<general>(e.material, s.l - e.L);
+    start.grown = carried - carried_elongation<general>(e.material, start.s.l - e.L);
+    if (is_first) start.grown = carries<general>(e.material, s.l - e.L) ? s.d.dot(e.w) / s.l : 0.0;
+    start.s = s;
+  }
+  template <bool with_tangent>
+  bool evaluate(const Start& start, const ElementStage& e, Vector3& f, Matrix3& K) const {
+    const Stretch& s0 = start.s;
+    const Stretch s1 = stretch(s0.d + (e.d - s0.d) / alpha_f);
+    LengthStep step{s0.l, s1.l, dt, xi, pace * start.grown};
+    const TensionSlope tension = step_tension<general>(e.material, e.L, step);
+    f = energy_momentum_force(tension, s0, s1);
+    if constexpr (with_tangent) {
+      double turning = tension.T;
+      if (e.turning.is_predicted) {
+        step.l1 = expected_length(e.turning, s1, s0.l);
+        turning = std::max(step_tension<general>(e.material, e.L, step).T, e.turning.least);
+      }
+      K = 1 / alpha_f * energy_momentum_tangent(tension.slope, turning, s0, s1, kind);
+    }
+    return s1.l > 0;
+  }
+};
+
+}   // namespace cablenet::elements
