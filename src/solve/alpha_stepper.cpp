@@ -22,6 +22,9 @@ double memory_of(const partition::LocalNetwork& network, const scene::Time& time
   return forgets ? 0 : part * (time.end - time.start);
 }
 
+/// So many attempts are made before a step is shortened.
+constexpr int most_of_a_length = 3;
+
 /// So many halvings bring an adaptive step below any that is of use.
 constexpr PetscInt most_rejections = 40;
 
@@ -245,11 +248,11 @@ PetscErrorCode AlphaStepper::begin_stage(TS ts, PetscReal) noexcept {
   AlphaStepper* stepper = nullptr;
   PetscCall(TSGetApplicationContext(ts, &stepper));
   if (!stepper->read_step().is_start()) ++stepper->attempts_;
-  // The second attempt is made with another tangent, the later ones with shorter steps.
-  const bool is_first = stepper->attempts_ <= 1;
-  if (stepper->attempts_ == 2) stepper->repeats_ = 1;
-  PetscCall(TSAdaptSetScaleSolveFailed(stepper->adapt_, is_first ? 1 : stepper->failed_scale_));
-  stepper->equations_.begin_attempt(stepper->attempts_);
+  // The first attempts differ in their tangents alone.
+  const int attempt = stepper->attempts_;
+  if (attempt > 1 && attempt <= most_of_a_length) stepper->repeats_ = attempt - 1;
+  PetscCall(TSAdaptSetScaleSolveFailed(stepper->adapt_, attempt < most_of_a_length ? 1 : stepper->failed_scale_));
+  stepper->equations_.begin_attempt(attempt);
   PetscFunctionReturn(petsc::success);
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cablenet/base/linear_algebra.hpp"
-#include "cablenet/petsc/handle.hpp"
+#include "cablenet/petsc/values.hpp"
 
 namespace cablenet::solve {
 namespace {
@@ -34,17 +34,13 @@ double weighed_jerk(double dt, double longest, const Vector3& v, const Vector3& 
 /// Of all nodes, the largest.  @param per_correction  x''' over the correction of x0 + dt v0 + dt^2/2 a0 [1/s^3]
 double largest_jerk(const partition::LocalNetwork& network, const StepStart& start, std::span<const double> growth,
                     double dt, double longest, double per_correction, Vec x1) {
-  const double *x1_values = nullptr, *x = nullptr, *v = nullptr, *a = nullptr;
-  check(VecGetArrayRead(x1, &x1_values));
-  check(VecGetArrayRead(start.x, &x));
-  check(VecGetArrayRead(start.v, &v));
-  check(VecGetArrayRead(start.a, &a));
+  const petsc::ReadValues end(x1), x(start.x), v(start.v), a(start.a);
   double largest = 0;
   for (LocalNode node(0); network.is_owned(node); ++node) {
     const auto of_node = [begin = network.begin[node].value()](const double* values) {
       return Eigen::Map<const Vector3>(values + begin);
     };
-    Vector3 correction = of_node(x1_values) - of_node(x) - dt * of_node(v) - dt * dt / 2 * of_node(a);
+    Vector3 correction = of_node(end) - of_node(x) - dt * of_node(v) - dt * dt / 2 * of_node(a);
     Vector3 smooth = of_node(a);
     if (!growth.empty()) {
       correction += dt * dt / 2 * of_node(growth.data());
@@ -52,10 +48,6 @@ double largest_jerk(const partition::LocalNetwork& network, const StepStart& sta
     }
     largest = std::max(largest, weighed_jerk(dt, longest, of_node(v), smooth, per_correction * correction));
   }
-  check(VecRestoreArrayRead(x1, &x1_values));
-  check(VecRestoreArrayRead(start.x, &x));
-  check(VecRestoreArrayRead(start.v, &v));
-  check(VecRestoreArrayRead(start.a, &a));
   MPI_Comm communicator = MPI_COMM_NULL;
   check(PetscObjectGetComm(reinterpret_cast<PetscObject>(x1), &communicator));
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, communicator);

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablenet/petsc/handle.hpp"
+#include "cablenet/petsc/values.hpp"
 
 namespace cablenet::solve {
 namespace {
-
-using petsc::check;
 
 /// The lesser of two changes, or none where they differ in sign.
 double lesser(double one, double other) {
@@ -19,13 +17,10 @@ double lesser(double one, double other) {
 
 void MeanAcceleration::advance(double dt, Vec v0, Vec v1, Vec a, Vec expected) {
   PetscInt size = 0;
-  const double *start = nullptr, *end = nullptr;
-  double *mean = nullptr, *next = nullptr;
-  check(VecGetLocalSize(a, &size));
-  check(VecGetArrayRead(v0, &start));
-  check(VecGetArrayRead(v1, &end));
-  check(VecGetArray(a, &mean));
-  check(VecGetArrayWrite(expected, &next));
+  petsc::check(VecGetLocalSize(a, &size));
+  const petsc::ReadValues start(v0), end(v1);
+  const petsc::ChangedValues mean(a);
+  const petsc::WrittenValues next(expected);
   const auto count = static_cast<std::size_t>(size);
   growth_.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -34,10 +29,6 @@ void MeanAcceleration::advance(double dt, Vec v0, Vec v1, Vec a, Vec expected) {
     next[i] = now + lesser(growth, growth_[i]);
     growth_[i] = growth;
   }
-  check(VecRestoreArrayWrite(expected, &next));
-  check(VecRestoreArray(a, &mean));
-  check(VecRestoreArrayRead(v1, &end));
-  check(VecRestoreArrayRead(v0, &start));
 }
 
 }   // namespace cablenet::solve

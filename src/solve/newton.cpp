@@ -7,6 +7,7 @@
 
 #include "cablenet/base/errors.hpp"
 #include "cablenet/petsc/options.hpp"
+#include "cablenet/petsc/values.hpp"
 #include "failed_part.hpp"
 #include "snes_options.hpp"
 
@@ -19,15 +20,15 @@ using petsc::check;
 constexpr double relative_force_tolerance = 3e-13;
 
 /// Beside NewtonProgress, which ends what gets nowhere.
-constexpr PetscInt most_iterations = 200;
+constexpr PetscInt most_iterations = 100;
 
 /// In a cycle, over the whole one.
 constexpr double shortest_correction = 0.125;
 
-/// The first attempt that searches along its corrections.
-constexpr int first_search = 4;
+/// The attempt with the tangent of the equations, and the first one that searches along its corrections.
+constexpr int exact_attempt = 3, first_search = 5;
 
-/// Over the rounding of positions: a correction below this is none.
+/// A correction below this part of the positions' rounding is none.
 constexpr double smallest_correction = 1;
 
 /// What SNESSetLagJacobian calls never to compute a tangent.
@@ -144,15 +145,16 @@ void Newton::begin_attempt(int attempt) {
   outside_element_ = outside_body_ = -1;
   if (attempt >= first_search || searches_) choose_line_search(attempt >= first_search);
   searches_ = attempt >= first_search;
-  is_retry_ = attempt > 1;
+  attempt_ = attempt;
 }
 
 void Newton::begin_solve(const AlphaStep& step, const StepStart& start, Vec guess) {
   step_ = step;
   evaluations_ = 0;
   tangents_ = 0;
+  progress_ = {};
   tangent_at_ = {};
-  reuse_.begin_solve(step.is_start() ? -step.dt : step.dt, is_retry_);
+  reuse_.begin_solve(step.is_start() ? -step.dt : step.dt, attempt_ > 1);
   if (step.is_start()) return;
   check(VecWAXPY(guess, step.dt, start.v, start.x));
   check(VecAXPY(guess, step.dt * step.dt / 2, start.expected_a));
@@ -164,7 +166,7 @@ void Newton::residual(Vec x, Vec v, Vec a, Vec r) {
   a_ = a;
   // Newton's method needs the tangent after each residual but the last: one pass makes both where another correction
   // is expected.
-  const bool wants_tangent = combines_ && !is_retry_ && evaluations_ <= expected_iterations_;
+  const bool wants_tangent = combines_ && attempt_ <= 1 && evaluations_ < expected_iterations_;
   const system::TangentRequest request = tangent_request();
   ++evaluations_;
   if (wants_tangent) tangent_at_ = petsc::state_of(x), ++tangents_;
@@ -174,11 +176,8 @@ void Newton::residual(Vec x, Vec v, Vec a, Vec r) {
   // PETSc's own flag for this stays on one rank, and its line searches then leave the others waiting.  An infinite
   // residual reaches all ranks by its norm.
   PetscInt count = 0;
-  PetscScalar* values = nullptr;
   check(VecGetLocalSize(r, &count));
-  check(VecGetArrayWrite(r, &values));
-  std::fill_n(values, count, std::numeric_limits<double>::infinity());
-  check(VecRestoreArrayWrite(r, &values));
+  std::fill_n(static_cast<double*>(petsc::WrittenValues(r)), count, std::numeric_limits<double>::infinity());
 }
 
 void Newton::tangent() {
@@ -199,12 +198,17 @@ system::TangentRequest Newton::tangent_request() {
   return {.matrix = tangent_, .shift = {1, step_.shift_v(), step_.shift_a()}, .turning = turning()};
 }
 
-/// A kept tangent says nothing of the tension at a later chord.  Where the step has failed before, compression turns
-/// nothing: it would make the tangent indefinite.
+/// A kept tangent says nothing of the tension at a later chord.
+bool Newton::predicts() const { return attempt_ != exact_attempt && (reuse_.computes_always() || attempt_ > 1); }
+
+/// Where the first attempt fails, or goes round in a cycle, compression turns nothing: it makes tangents indefinite.
+/// That leads slack ropes to the end.  Bars that push need the tangent of the equations, which the third attempt has.
+bool Newton::clamps() const { return predicts() && (attempt_ > 1 || progress_.cycles()); }
+
 system::TurningRule Newton::turning() const {
-  if (!reuse_.computes_always() && !is_retry_) return {};
+  if (!predicts()) return {};
   system::TurningRule rule{.is_predicted = true, .is_first = tangents_ == 0};
-  if (is_retry_ || progress_.cycles()) rule.least = 0;
+  if (clamps()) rule.least = 0;
   return rule;
 }
 
@@ -226,11 +230,9 @@ bool Newton::is_at_positions_rounding(double correction, double positions) const
 }
 
 bool Newton::is_at_rounding(PetscInt iteration, double norm) {
-  const double noise = scales_.rounding(largest_coordinate_, step_.shift_a()) / step_.alpha_f;
-  // A careful search cannot go below rounding, and would call that a failure.
   const bool careful = searches_ || (user_line_search_ && iteration > 0);
   const bool settled =
-      convergence_.is_at_rounding(static_cast<int>(iteration), norm, noise, careful, converges_linearly());
+      convergence_.is_at_rounding(static_cast<int>(iteration), norm, noise(), careful, converges_linearly());
   if (iteration > 0) reuse_.note_correction(static_cast<int>(iteration), convergence_.contraction());
   return settled;
 }
@@ -243,7 +245,7 @@ SNESConvergedReason Newton::test(PetscInt iteration, PetscReal xnorm, PetscReal 
   bool settled = !step_.is_start() && is_at_rounding(iteration, fnorm);
   if (iteration > 0 && !converges_linearly()) settled = settled || is_at_positions_rounding(snorm, xnorm);
   if (reason == SNES_CONVERGED_ITERATING && (settled || linear_and_solved)) reason = SNES_CONVERGED_FNORM_ABS;
-  progress_.note(static_cast<int>(iteration), fnorm);
+  progress_.note(static_cast<int>(iteration), fnorm, NewtonConvergence::most_of_noise * noise());
   shorten_where_it_returns();
   if (reason == SNES_CONVERGED_ITERATING && !progress_.goes_on()) reason = SNES_DIVERGED_MAX_IT;
   return reason;

@@ -5,18 +5,18 @@ namespace cablenet::solve {
 /// A residual is the error that is left, and rounding.  With a new tangent the error falls quadratically, f1 = c f0^2.
 /// With a kept tangent it falls linearly, f1 = rate f0.  Earlier corrections show c and the rate.  These predict the
 /// error that is left where rounding hides it.
-bool NewtonConvergence::is_at_rounding(int iteration, double norm, double noise, bool is_retry, bool same_tangent) {
+bool NewtonConvergence::is_at_rounding(int iteration, double norm, double noise, bool searches, bool same_tangent) {
   const double previous = previous_norm_;
   previous_norm_ = norm;
   contraction_ = iteration == 0 || previous == 0 ? 0 : norm / previous;
-  if (iteration == 0) return is_retry && norm <= 8 * noise;
+  if (iteration == 0) return searches && norm <= most_of_noise * noise;
   const double error = same_tangent ? rate_ * previous : curvature_ * previous * previous;
   if (norm > noise && same_tangent) rate_ = contraction_;
   if (norm > noise && !same_tangent) curvature_ = norm / (previous * previous);
   if (norm <= 0.5 * noise && error <= 0.01 * noise) return true;
   // The careful line search of a retry cannot go below rounding at all, and would call that a failure.
   const bool stuck = norm > 0.25 * previous;
-  return (stuck || is_retry) && norm <= (same_tangent ? 1 : 8) * noise;
+  return (stuck || searches) && norm <= (same_tangent ? 1 : most_of_noise) * noise;
 }
 
 void NewtonConvergence::archive(Archive& archive) {

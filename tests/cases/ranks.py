@@ -32,8 +32,7 @@ SOLVERS = {
     "lu": (set(RANKS), ("-pc_type", "lu")),
     "gmres": (set(RANKS), ("-ksp_type", "gmres")),
     "baij": (set(RANKS), ("-mat_type", "baij", "-pc_type", "lu")),
-    # In `two_cables` a step is cut with the one tangent and not with the other.
-    "mumps with kept tangents": (set(RANKS) - {"array", "two_cables"}, ("-cable_elimination_limit", "0")),
+    "mumps with kept tangents": (set(RANKS) - {"array"}, ("-cable_elimination_limit", "0")),
     "lagged tangents": ({"chain"}, ("-snes_lag_jacobian", "2")),
 }
 

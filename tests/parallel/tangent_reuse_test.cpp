@@ -112,13 +112,18 @@ TEST(NewtonProgress, GoesOnAsLongAsTheResidualFalls) {
   solve::NewtonProgress progress;
   double norm = 1;
   for (int i = 0; i < 100; ++i, norm *= 0.96) {
-    progress.note(i, norm);
+    progress.note(i, norm, 0);
     EXPECT_TRUE(progress.goes_on()) << "correction " << i;
   }
-  for (int i = 100; i < 130; ++i) progress.note(i, norm);
+  for (int i = 100; i < 130; ++i) progress.note(i, norm, 0);
   EXPECT_FALSE(progress.goes_on());
-  progress.note(0, 5 * norm);
+  progress.note(0, 5 * norm, 0);
   EXPECT_TRUE(progress.goes_on()) << "in the next solve";
+  norm = 1e8;
+  for (int i = 1; i < 40; ++i, norm *= 0.5) progress.note(i, norm, 0);
+  EXPECT_TRUE(progress.goes_on()) << "it falls from far above the best";
+  for (int i = 40; i < 60; ++i) progress.note(i, i % 2 == 0 ? 10 * norm : norm, 0);
+  EXPECT_FALSE(progress.goes_on()) << "it swings";
 }
 
 TEST(NewtonProgress, SeesThatAResidualReturns) {
@@ -126,10 +131,12 @@ TEST(NewtonProgress, SeesThatAResidualReturns) {
   const std::vector<double> norms{5, 1, 29, 1.8, 29.1, 14, 3};
   const std::vector<bool> returns{false, false, false, false, true, false, false};
   for (std::size_t i = 0; i < norms.size(); ++i) {
-    progress.note(static_cast<int>(i), norms[i]);
+    progress.note(static_cast<int>(i), norms[i], 0);
     EXPECT_EQ(progress.returns(), returns[i]) << "correction " << i;
     EXPECT_EQ(progress.cycles(), i >= 4) << "correction " << i;
   }
-  progress.note(0, 3);
+  progress.note(0, 3, 0);
   EXPECT_FALSE(progress.cycles()) << "in the next solve";
+  for (int i = 1; i < 6; ++i) progress.note(i, 1e-9, 1e-8);
+  EXPECT_FALSE(progress.cycles()) << "rounding alone";
 }

@@ -17,8 +17,13 @@ namespace cablenet::solve {
 
 /// Newton's method for a network's equations at a stage, with PETSc's SNES.
 ///
-/// The first guess is x0 + dt v0 + dt^2/2 a0.  The iteration ends where the residual is down to rounding
-/// (NewtonConvergence) or to PETSc's tolerances.  Only a retry searches along the line of a correction.
+/// The first guess is x0 + dt v0 + dt^2/2 a with the acceleration a that the step may be expected to have.  The
+/// iteration ends where the residual is down to rounding (NewtonConvergence) or to PETSc's tolerances.  It fails where
+/// it gets no nearer (NewtonProgress).
+///
+/// Attempts at a step differ in the tension that turns the chords in the tangent (system::TurningRule).  The first
+/// takes the predicted one, the second does so without compression, and the third has the tangent of the equations.
+/// Later ones are like the second, and shorter.  From the fifth on they search along the line of a correction.
 ///
 /// This class makes the tangents itself, in the convergence test, and tells SNES never to make one: SNES's own way to
 /// a tangent looks up options, which costs a fifth of a small step.  Where an option of the user's needs SNES to make
@@ -52,7 +57,7 @@ public:
   /// @param known_body  in Network::bodies, of one that is known to have left its domain, or -1
   FailedPart failed_part(int known_body);
   std::string linear_solver() const { return linear_.describe(); }
-  /// What rounding of positions does to stored energy: eps |x| times the loads at the start.  [J]
+  /// What rounding of positions does to stored energy: eps |x| times the loads.  [J]
   double energy_rounding() const { return PETSC_MACHINE_EPSILON * largest_coordinate_ * scales_.load; }
 
   /// What the next step's path depends on.
@@ -63,12 +68,16 @@ private:
   bool has_basic_line_search() const;
   void scale_tolerance();
   void choose_line_search(bool searches);
+  /// The 2-norm of a residual that is rounding alone.  [N]
+  double noise() const { return scales_.rounding(largest_coordinate_, step_.shift_a()) / step_.alpha_f; }
   bool is_at_rounding(PetscInt iteration, double norm);
   SNESConvergedReason test(PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm);
   system::TangentRequest tangent_request();
+  bool predicts() const;
+  bool clamps() const;
   system::TurningRule turning() const;
   /// The last tangent is not that of the equations: it was kept, or compression turns nothing in it.
-  bool converges_linearly() const { return reuse_.was_kept() || is_retry_ || progress_.cycles(); }
+  bool converges_linearly() const { return reuse_.was_kept() || clamps(); }
   void shorten_where_it_returns();
   bool is_at_positions_rounding(double correction, double positions) const;
   system::Stage stage() const { return {t_, step_.dt, step_.alpha_f}; }
@@ -94,9 +103,9 @@ private:
   int outside_element_ = -1;     ///< scene number of an element that lost its length in the running attempt
   int outside_body_ = -1;        ///< likewise of a body that turned out of its domain
   SolverNumber singular_node_;   ///< solver number: where the tangent was singular
-  bool is_retry_ = false;
-  bool searches_ = false;   ///< along its corrections
-  double length_ = 1;       ///< of the next correction, over the whole one
+  int attempt_ = 0;              ///< at the running step, from 1 on
+  bool searches_ = false;        ///< along its corrections
+  double length_ = 1;            ///< of the next correction, over the whole one
   bool makes_tangents_ = false;
   bool combines_ = false;   ///< each residual but a solve's last brings its tangent along
   bool user_line_search_ = false;

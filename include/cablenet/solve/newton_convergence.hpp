@@ -9,13 +9,16 @@ namespace cablenet::solve {
 /// Tests: tests/parallel/tangent_reuse_test.cpp
 class NewtonConvergence {
 public:
+  /// A residual of so many times the noise may be noise alone.
+  static constexpr double most_of_noise = 8;
+
   /// @param iteration     corrections so far
   /// @param norm          2-norm of the residual after them [N]
   /// @param noise         2-norm of a residual that is rounding alone [N]
-  /// @param is_retry      an earlier attempt at the step failed.  A residual near `noise` is then enough, that of the
-  ///                      first guess included
+  /// @param searches      a search chooses the corrections' lengths.  It cannot go below rounding, so that a residual
+  ///                      near `noise` is enough, that of the first guess included
   /// @param same_tangent  the last correction was made with an older tangent
-  bool is_at_rounding(int iteration, double norm, double noise, bool is_retry, bool same_tangent);
+  bool is_at_rounding(int iteration, double norm, double noise, bool searches, bool same_tangent);
   /// The last residual's norm over that of the one before it; 0 after the first.
   double contraction() const { return contraction_; }
   void archive(Archive& archive);

@@ -8,11 +8,12 @@ class NewtonProgress {
 public:
   /// After each correction, and before the first one.
   /// @param iteration  corrections so far   @param norm  of the residual after them [N]
-  void note(int iteration, double norm);
-  /// The residual has fallen by 30 % within the last corrections.
-  bool goes_on() const { return iteration_ - best_at_ < patience; }
-  /// The last residual is 30 % below the best one before it, or the first one.
-  bool is_best() const { return best_at_ == iteration_; }
+  /// @param noise      norms up to this may be rounding, and return by chance [N]
+  void note(int iteration, double norm, double noise);
+  /// Within the last corrections a residual was best, or two in a row fell by 30 %.
+  bool goes_on() const { return iteration_ - gained_at_ < patience; }
+  /// The last residual is the first one, or 30 % below the best one before it.
+  bool is_best() const { return is_best_; }
   /// The last residual is the one of two corrections before: an element goes slack and taut by turns.
   bool returns() const { return returns_; }
   /// A residual of this solve has returned.
@@ -21,10 +22,10 @@ public:
 private:
   static constexpr int patience = 12;
 
-  int iteration_ = 0, best_at_ = 0;
+  int iteration_ = 0, gained_at_ = 0, falls_ = 0;
   double best_ = 0;                  ///< [N]
   std::array<double, 2> before_{};   ///< the last two residuals [N]
-  bool returns_ = false, cycles_ = false;
+  bool is_best_ = false, returns_ = false, cycles_ = false;
 };
 
 }   // namespace cablenet::solve

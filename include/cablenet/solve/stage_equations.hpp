@@ -15,7 +15,7 @@ public:
   virtual void configure(SNES snes) = 0;
   virtual void adopt_options() = 0;
 
-  /// @param attempt  at the running step, from 1 on; the second one has the same length
+  /// @param attempt  at the running step, from 1 on; the first three have the same length
   virtual void begin_attempt(int attempt) = 0;
   /// @param start  of the step
   /// @param guess  of the positions at the step's end; where it is left alone, those at the start
