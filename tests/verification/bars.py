@@ -3,7 +3,7 @@ import numpy as np
 
 from attitude import Turning
 from body_pendulum import ANGLE, ARM, CUBE, LENGTH, ROD
-from statics_support import at_rest, fixed, still
+from statics_support import hung_by_soft_links
 from support import HELD, Verification, orders, read_reference, rows_at, scene
 
 GRAVITY, MASS, INERTIA = 9.81, CUBE["mass"], CUBE["inertia"][1]
@@ -133,27 +133,12 @@ def check_energy(v):
 
 
 def check_hanging(v):
-    """A soft bar stretches by F |r|/EA, keeps F^2 |r|/(2 EA), and turns the attachment above the centre of gravity."""
-    gravity, mass, line, rope_stiffness, stiffness = 10, 2.0, 0.1, 1000.0, 50.0
-    force, pull = mass * gravity, (mass + line / 2) * gravity
-    for arm in ([0.09, -0.12, 0.2], [0.3, 0, 0.4]):
-        r = np.linalg.norm(arm)
-        body = {"mass": mass, "inertia": [0.1, 0.1, 0.1], "position": [0.1, 0, -2], "attachments": {"top": arm},
-                "coupling": bar(stiffness)}
-        case = still({"mass_per_length": line, "axial_stiffness": rope_stiffness}, {"pin": fixed(0, 0, 0)},
-                     {"rope": {"from": "pin", "to": "body.top", "elements": 1, "length": 1}}, ["body"], gravity,
-                     bodies={"body": body})
-        case["output"]["energy"] = True
-        run = v.run(case)
-        length = 1 + pull / rope_stiffness + force * r / stiffness + r
-        strain = 0.5 * pull**2 / rope_stiffness + 0.5 * force**2 * r / stiffness
-        # Forces balance to 1e-9 of the load at least.
-        v.close(f"hung by a soft bar at {arm}: height [m]", at_rest(run, "body")[2], -length,
-                1e-9 * force * (1 / rope_stiffness + r / stiffness))
-        v.close(f"hung by a soft bar at {arm}: strain energy [J]", run["energy.strain"][0], strain, 2e-9 * strain)
+    """A soft bar turns the attachment above the centre of gravity."""
+    for arm, run in hung_by_soft_links(v, "bar"):
         q = Turning(run, "body").q[0]
         up = arm + 2 * np.cross(q[1:], np.cross(q[1:], arm) + q[0] * np.array(arm))
-        v.check(f"hung by a soft bar at {arm}: lean of the attachment [rad]", np.linalg.norm(up[:2]) / r, 1e-7)
+        lean = np.linalg.norm(up[:2]) / np.linalg.norm(arm)
+        v.check(f"hung by a soft bar at {arm}: lean of the attachment [rad]", lean, 1e-7)
 
 
 def main():

@@ -2,7 +2,7 @@
 import numpy as np
 
 from attitude import Turning, angle_between
-from statics_support import at_rest, fixed, still
+from statics_support import hung_by_soft_links
 from support import Verification, energy_drift, orders, scene
 
 ROPE = {"mass_per_length": 0.02, "axial_stiffness": 1000.0, "axial_damping": 3.0}
@@ -78,30 +78,9 @@ def check_energy(v):
             v.check(f"energy_momentum, {rotation}, {link}: drift of the energy in 2 s", drift, 1e-5)
 
 
-def check_hanging(v):
-    """A soft link of EA and the length |r| stretches by F |r|/EA, and keeps F^2 |r|/(2 EA)."""
-    gravity, mass, line, rope_stiffness, stiffness = 10, 2.0, 0.1, 1000.0, 50.0
-    force, pull = mass * gravity, (mass + line / 2) * gravity
-    for arm in ([0.09, -0.12, 0.2], [0.3, 0, 0.4]):
-        r = np.linalg.norm(arm)
-        body = {"mass": mass, "inertia": [0.1, 0.1, 0.1], "position": [0.1, 0, -2], "attachments": {"top": arm},
-                "coupling": {"rigid_link": {"axial_stiffness": stiffness}}}
-        case = still({"mass_per_length": line, "axial_stiffness": rope_stiffness}, {"pin": fixed(0, 0, 0)},
-                     {"rope": {"from": "pin", "to": "body.top", "elements": 1, "length": 1}}, ["body"], gravity,
-                     bodies={"body": body})
-        case["output"]["energy"] = True
-        run = v.run(case)
-        length = 1 + pull / rope_stiffness + force * r / stiffness + r
-        strain = 0.5 * pull**2 / rope_stiffness + 0.5 * force**2 * r / stiffness
-        # Forces balance to 1e-9 of the load at least.
-        v.close(f"hung by a soft link at {arm}: height [m]", at_rest(run, "body")[2], -length,
-                1e-9 * force * (1 / rope_stiffness + r / stiffness))
-        v.close(f"hung by a soft link at {arm}: strain energy [J]", run["energy.strain"][0], strain, 2e-9 * strain)
-
-
 def main():
     verification = Verification(__doc__)
-    check_hanging(verification)
+    hung_by_soft_links(verification, "rigid_link")
     for name in SCHEMES:
         for rotation in CONVERGING:
             check_convergence(verification, name, rotation)

@@ -99,3 +99,27 @@ class Catenary:
     def resting(self):
         """The length that lies on the bed."""
         return self.length - self.v / self.w
+
+
+def hung_by_soft_links(v, kind):
+    """A body hangs on a rope and a soft link of EA and the length |r|, for two attachments r.  The link stretches by
+    F |r|/EA and keeps F^2 |r|/(2 EA).  @param kind  of the link, a key of `coupling`   @return [(r, run)]"""
+    gravity, mass, line, rope_stiffness, stiffness = 10, 2.0, 0.1, 1000.0, 50.0
+    force, pull, runs = mass * gravity, (mass + line / 2) * gravity, []
+    for arm in ([0.09, -0.12, 0.2], [0.3, 0, 0.4]):
+        r = np.linalg.norm(arm)
+        body = {"mass": mass, "inertia": [0.1, 0.1, 0.1], "position": [0.1, 0, -2], "attachments": {"top": arm},
+                "coupling": {kind: {"axial_stiffness": stiffness}}}
+        case = still({"mass_per_length": line, "axial_stiffness": rope_stiffness}, {"pin": fixed(0, 0, 0)},
+                     {"rope": {"from": "pin", "to": "body.top", "elements": 1, "length": 1}}, ["body"], gravity,
+                     bodies={"body": body})
+        case["output"]["energy"] = True
+        run = v.run(case)
+        length = 1 + pull / rope_stiffness + force * r / stiffness + r
+        strain = 0.5 * pull**2 / rope_stiffness + 0.5 * force**2 * r / stiffness
+        # Forces balance to 1e-9 of the load at least.
+        v.close(f"hung by a soft {kind} at {arm}: height [m]", at_rest(run, "body")[2], -length,
+                1e-9 * force * (1 / rope_stiffness + r / stiffness))
+        v.close(f"hung by a soft {kind} at {arm}: strain energy [J]", run["energy.strain"][0], strain, 2e-9 * strain)
+        runs.append((arm, run))
+    return runs
