@@ -256,8 +256,9 @@ bool Statics::factor_and_solve() {
   return reason >= 0 && negative_pivots_ == 0 && std::isfinite(norm(step_));
 }
 
-/// @returns the share of the step to take.  It is less than all where the force along the step turns round and is
-/// nearly as large as before or larger, as beyond a minimum of energy, unless the residual falls, as with drag it may.
+/// @returns the share of the step to take.  The whole step goes too far where the force along it has turned round and
+/// is nearly as large as before: a minimum of energy lies between.  With drag the residual may fall all the same, and
+/// then the whole step is taken.
 double Statics::search(const StaticRule& rule, double now, bool searches) {
   const double before = -dot(step_, r_);
   double share = 1;

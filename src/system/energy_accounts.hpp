@@ -9,18 +9,18 @@
 
 namespace cablenet::system {
 
-/// What a group of terms did in a step, at this rank's nodes: residuals times what the nodes did.
+/// The work of a group of terms in a step, at this rank's nodes.
 struct StepWork {
-  double path = 0;      ///< the ways from the step's start to its end [J]
-  double turning = 0;   ///< of it, what turning bodies did [J]
-  double power = 0;     ///< the velocities at the stage [W]
+  double path = 0;      ///< residuals at the stage times the nodes' ways x1 - x0 [J]
+  double turning = 0;   ///< the share of `path` that is the turning of bodies [J]
+  double power = 0;     ///< residuals times velocities, both at the stage [W]
 };
 
-/// A step of which the accounts are to be kept.
+/// What the accounts are told of an accepted step.
 struct StepRecord {
   const Stage& stage;
-  StepWork stored;     ///< of all that stores energy, damping included
-  StepWork undamped;   ///< the same without the cables' damping
+  StepWork stored;     ///< of the terms that store energy, and of the cables' damping
+  StepWork undamped;   ///< of the same terms, with cables that have no damping
   StepWork water, bed;
   double prescribed_work;    ///< since the start [J]
   double prescribed_shift;   ///< as PrescribedNodes::step_shift()
@@ -29,14 +29,18 @@ struct StepRecord {
 /// Where energy goes, step by step.  A term's work in a step is its residual at the stage times x1 - x0, summed over
 /// nodes.  These works add up to that of the prescribed nodes, as the step's equations say.  So the balance closes if
 /// each term's work goes to an account:
-///   water, bed   theirs
-///   damping      that of the cables, less that of the same cables without damping
-///   dissipated   what is left: works, less the change of what is stored
-/// Where the stage is not the middle of the step, the first three are powers at the stage, taken to the middle by the
-/// last step's.  `dissipated` takes the difference, and the one that the prescribed nodes have made.  So all accounts
-/// are of second order, and the balance still closes.
-/// Bodies' turning: the others' work on it is known, and their kinetic energy, so what is between them is dissipated.
-/// All is this rank's part, but for the summary.  Tests: tests/parallel/energy_test.cpp
+///   water, bed   the work of the water's terms, of the bed's term
+///   damping      the work of the cables, less that of the same cables without damping
+///   dissipated   what is left of all work when the three above and the change of stored energy are taken from it
+///
+/// Where the stage is not the middle of the step, water, bed and damping are powers.  The powers at this stage and at
+/// the last one give that at the step's middle.  What this differs from the work goes to `dissipated`, and likewise
+/// what prescribed nodes differ by.  So all accounts are of second order, and the balance still closes.
+///
+/// A body that turns: the work that the other terms do on its turning is known, and so is its kinetic energy.  The
+/// difference goes to `dissipated`.
+///
+/// All numbers are this rank's part, except those of the summary.  Tests: tests/parallel/energy_test.cpp
 class EnergyAccounts {
 public:
   /// @param scratch, resting  vectors of the solver; `resting` is zero
@@ -83,7 +87,7 @@ private:
   Energies stored_;                  ///< at the step's start
   std::vector<double> way_;          ///< of the local nodes: where they were at the step's start, then x1 - x0 [m]
   std::vector<Vector3> spins_;       ///< of the bodies at the step's start [rad/s]
-  Energies taken_;                   ///< the accounts, and the total at the start
+  Energies taken_;                   ///< only its dissipated, damping, water, bed and start are used
   std::array<double, 3> power_{};    ///< of damping, water and bed at the last stage [W]
   double previous_stage_time_ = 0;   ///< [s]
   double highest_dissipated_ = 0;    ///< on all ranks

@@ -6,7 +6,7 @@
 
 namespace cablenet::system {
 
-/// The links between a cable's end node and the attachment of a body: springs and bars.
+/// Links hold a cable's end at a body: springs lead to the attachment, bars to the centre of gravity.
 /// A spring's force is stiffness * gap.  All schemes take it at the stage, as it is linear in positions.
 /// A bar's force f is that of the chord from the cable's end to the centre of gravity, by choose_bar_law().  It acts on
 /// the cable's end and, turned round, on the attachment.  It follows the centre of gravity and not the attachment.

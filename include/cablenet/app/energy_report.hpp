@@ -11,7 +11,7 @@ struct EnergyReport {
   EnergyReport(const system::EnergySummary& of_run, const scene::Scene& scene);
 
   system::EnergySummary energy;
-  bool is_damped, is_wet, has_bed;   ///< The scene has what fills these accounts.
+  bool is_damped, is_wet, has_bed;   ///< The scene has damping, water, a bed: other accounts are not told.
 };
 
 /// "energy: 12.3 J moved; damping took 3.1 J (25 %), ...; the balance closes to 1.2e-12".

@@ -15,8 +15,8 @@ struct ForceTangent {
   Matrix3 w;   ///< [N s/m]
 };
 
-/// T = EA (l/L - 1) + c l'/L with c = axial_damping.  [N]  A tension_only element pulls or is silent: its tension is 0
-/// where it is slack (l < L), and where T would be negative.
+/// T = EA (l/L - 1) + c l'/L, where c is axial_damping.  [N]  A tension_only element never pushes: its tension is 0
+/// where it is slack (l < L), and where this formula is negative.
 /// @param L unstretched length [m], > 0
 double cable_tension(const CableMaterial&, double L, const Chord&);
 
@@ -36,11 +36,13 @@ struct ChordStep {
 };
 
 /// f = T (d0 + d1)/(l0 + l1),  T = theta (EA/L ((p0 + p1)/2 + xi (p1 - p0 - due)) + c/L (l1 - l0)/dt),
-/// theta = (p1 - p0)/(l1 - l0).  [N]  Here p is the elongation that carries tension: l - L, or 0 where the element is
-/// slack and tension_only.  The part without xi and c is the discrete gradient of the strain energy EA/L p^2/2: its
-/// work f . (d1 - d0) is exactly what the element stores.  The part with xi resists the change of the rate.  The sum of
-/// the energy and of xi/2 EA/L (p1 - p0)^2 never grows by it, and what it takes out is of third order in dt a step.
-/// A tension_only element pulls or is silent: T is 0 where it would be negative.
+/// theta = (p1 - p0)/(l1 - l0).  [N]
+/// p is the elongation that carries tension.  It is l - L, or 0 where the element is slack and tension_only.
+/// Without the terms in xi and c, the work f . (d1 - d0) is exactly the change of the strain energy EA/L p^2/2.  (T is
+/// then the discrete gradient of that energy.)  The term in xi compares the growth of p in this step with that in the
+/// step before.  It never makes the sum of all energy and of xi/2 EA/L (p1 - p0)^2 grow.  What it takes from a smooth
+/// motion is of third order in dt for each step.
+/// A tension_only element never pushes: T is 0 where the formula is negative.
 Vector3 energy_momentum_force(const CableMaterial&, double L, const ChordStep&);
 
 /// The derivative of energy_momentum_force by d1, an unsymmetric matrix.  [N/m]

@@ -8,17 +8,22 @@
 
 /// The forces of water on a two-node cable element: Morison's drag, added mass normal to the cable, buoyancy and the
 /// pressure gradient of waves, per unstretched length.
-/// With N1 = 1 - s and N2 = s, and integrals over the wetted part of 0 <= s <= 1, the load on node i is
+/// The place s on the element goes from 0 at node 1 to 1 at node 2.  Its shape functions are N_1 = 1 - s and N_2 = s.
+/// Integrals are over the wetted part of the element.  The load on node i is
 ///   on_i = L [ n_i p + g_i - e (e.g_i) ]
 ///   p = 1/2 rho Cdn d |un| un + 1/2 rho Cdt pi d |ut| ut e + rho A (g ez + w)
 ///   g_i = rho A Ca (n_i w - sum_j m_ij a_j) +/- q 1/2 rho Cdn d |un| turning_share (v_2 - v_1)
 ///   n_i = integral of N_i,   m_ij = integral of N_i N_j,   q = m_22 - n_2^2/(n_1 + n_2)
 /// with e = d/l, u the water's velocity less the cable's, ut = e.u, un = u - e ut, and w the water's acceleration.  u
-/// and w are taken once, at the middle of the wetted part, s = n_2/(n_1 + n_2).  Other points see a flow across the
-/// chord that the curved cable does not have.  The last part of g_i, + on node 1 and - on node 2, is a couple that
-/// slows the turning of the chord; numerics.md tells why it is there.  Without a surface n = 1/2, m_11 = m_22 = 1/3,
-/// m_12 = 1/6 and q = 1/12; wet_part.hpp has them where an element is partly wet. Source: Morison et al., Petroleum
-/// Trans. AIME 189 (1950) 149; MoorDyn's documentation for cables. Tests: tests/unit/cable_in_water_test.cpp
+/// and w are taken once, at the middle of the wetted part, s = n_2/(n_1 + n_2).  At other points the water would cross
+/// the chord, where it flows along the curved cable.  The term with turning_share has the sign + on node 1 and - on
+/// node 2.  It is a couple that slows the turning of the chord; numerics.md tells why it is there.
+///
+/// Without a surface n = 1/2, m_11 = m_22 = 1/3,
+/// m_12 = 1/6 and q = 1/12; wet_part.hpp has them where an element is partly wet.
+/// Source: Morison et al., Petroleum
+/// Trans. AIME 189 (1950) 149; MoorDyn's documentation for cables.
+/// Tests: tests/unit/cable_in_water_test.cpp
 namespace cablenet::elements {
 
 /// The motion of an element's two nodes.

@@ -17,14 +17,14 @@ struct WetHalf {
   std::array<Vector3, 2> by{Vector3::Zero(), Vector3::Zero()};   ///< by the places of the element's two nodes [1/m]
 };
 
-/// The integral over half an element of the shape function of node i, where the element's length is 1.
+/// The integral of N_i over one half of an element of length 1.  N_i is the shape function of node i.
 constexpr double half_integral(std::size_t half, std::size_t i) { return i == half ? 3.0 / 8 : 1.0 / 8; }
-/// The integral over half an element of the product of the shape functions of the nodes i and j.
+/// The integral of N_i N_j over one half of an element of length 1.
 constexpr double half_integral(std::size_t half, std::size_t i, std::size_t j) {
   return i != j ? 1.0 / 12 : i == half ? 7.0 / 24 : 1.0 / 24;
 }
 
-/// The integrals over the wetted part, where the element's length is 1.
+/// Integrals over the wetted part of an element of length 1.
 struct WetPart {
   std::array<double, 2> n{0.5, 0.5};                                                  ///< of the shape functions
   std::array<std::array<double, 2>, 2> m{{{1.0 / 3, 1.0 / 6}, {1.0 / 6, 1.0 / 3}}};   ///< of their products

@@ -22,7 +22,7 @@ template <>
 inline constexpr std::array<Choice<Rotation>, 2> choices<Rotation>{
     {{Rotation::quaternion, "quaternion"}, {Rotation::euler, "euler"}}};
 
-/// What lies between a cable's end and the body: a spring to the attachment, or a bar to the centre of gravity.
+/// What holds a cable's end at a body: a spring to the attachment, or a bar to the centre of gravity.
 struct Link {
   enum class Kind { spring, bar } kind;
   double axial_stiffness;   ///< EA [N], > 0
@@ -46,7 +46,7 @@ struct Body {
   std::array<double, 6> linear_drag{};            ///< along and about the body axes [N s/m], [N m s]
   std::array<double, 6> quadratic_drag{};         ///< [N s^2/m^2], [N m s^2]
   std::array<double, 6> added_mass{};             ///< [kg], [kg m^2]
-  std::optional<Link> link;                       ///< none: cables end on the body
+  std::optional<Link> link;                       ///< without one, cables end on the attachments themselves
 };
 
 }   // namespace cablenet::scene

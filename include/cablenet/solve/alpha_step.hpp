@@ -12,9 +12,9 @@ struct AlphaWeights {
 
   /// These are the weights of the two steps by which PETSc's TSALPHA2 estimates its first acceleration.
   bool is_start() const { return alpha_m == 1 && alpha_f == 1 && gamma == 1 && beta == 0.5; }
-  /// The stage is the step's middle, and the acceleration there is the step's mean (v1 - v0)/dt.  The method's own
-  /// acceleration at the step's end then alternates about the true one, the longer the nearer its spectral radius is to
-  /// 1.
+  /// The stage is the middle of the step.  The acceleration there is the step's mean (v1 - v0)/dt.  The method's own
+  /// acceleration, at the step's end, alternates about the true one from step to step.  At spectral radius 1 that never
+  /// ends.
   bool is_centred() const { return alpha_f == 0.5 && alpha_m == gamma; }
 };
 

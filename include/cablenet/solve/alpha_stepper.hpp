@@ -98,7 +98,7 @@ private:
   const partition::LocalNetwork& network_;
   StageEquations& equations_;
   system::Vector x_, v_, a_;
-  system::Vector expected_a_, own_a_;   ///< of the next step; the method's own, where the further path depends on it
+  system::Vector expected_a_, own_a_;   ///< StepStart::expected_a; TSALPHA2's own, where it is not a_ and is needed
   system::Vector x0_, v0_;              ///< at the step's start
   system::Vector start_acceleration_;
   TimeStepper stepper_;

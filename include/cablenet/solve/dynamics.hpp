@@ -45,8 +45,8 @@ public:
 
   /// Saves or loads t, x, v, a, what the terms keep, and all else that the further path depends on.  To be called
   /// between steps: before run(), or by an observer of steps.  Saving restarts the stepper, which changes the further
-  /// path by rounding.  After that the run that saves and a run that loads are equal, on the same number of ranks bit
-  /// for bit.
+  /// path by rounding.  From there on the run that saved and a run that loads take the same path.  On the same number
+  /// of ranks their numbers are equal bit for bit.
   /// @throws InputError if what is loaded does not fit
   void archive(Archive& archive);
 

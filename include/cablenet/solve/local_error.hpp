@@ -14,7 +14,7 @@ struct StepStart {
   Vec x;            ///< [m]
   Vec v;            ///< [m/s]
   Vec a;            ///< the acceleration that is kept: as AlphaStepper::a() [m/s^2]
-  Vec expected_a;   ///< the acceleration that the step may be expected to have [m/s^2]
+  Vec expected_a;   ///< a guess of the step's mean acceleration, by those of the steps before [m/s^2]
 };
 
 /// The local error of a step: the distance by which this step alone leads a node astray.
@@ -25,7 +25,9 @@ struct StepStart {
 ///
 /// Where there is no water the errors of steps add up, period by period.  So each counts over the time in which the
 /// motion turns by 2 rad: the tolerance then bounds the error of a period to some 6 times its value, and not that of
-/// a step.  Water's drag forgets what a step has erred. Tests: tests/parallel/adaptive_test.cpp
+/// a step.  Where there is water its drag ends what an error has begun.
+///
+/// Tests: tests/parallel/adaptive_test.cpp
 class LocalError {
 public:
   /// @param longest  over which a step's error can count; 0: each counts by itself [s]

@@ -23,9 +23,9 @@ class NetworkPc {
 public:
   /// @param matrix         AIJ, in the blocks of `network` and in its numbering.  Its values are read at each
   ///                       factorisation
-  /// @param most_per_node  how many products of 3x3 blocks a factorisation may take on a rank, over the nodes that the
-  ///                       rank would have if all had equally many.  A body counts as so many nodes as have its
-  ///                       unknowns, and a product of larger blocks as so many as have its work
+  /// @param most_per_node  the limit on the work of a factorisation: products of 3x3 blocks on a rank, divided by the
+  ///                       mean number of nodes on a rank.  A body counts as several nodes, by its unknowns.  A product
+  ///                       of larger blocks counts as several products, by its work
   /// @returns nothing where a factorisation would take more
   static std::unique_ptr<NetworkPc> make(const partition::LocalNetwork& network, Mat matrix, double most_per_node);
   ~NetworkPc();
