@@ -24,7 +24,7 @@ struct StepStart {
 /// alternates in them, and leaves no node astray.  The largest error of any node counts; attitudes of bodies do not.
 ///
 /// Where there is no water the errors of steps add up, period by period.  So each counts over the time in which the
-/// motion turns by 2 rad: the tolerance then bounds the error of a period to some 6 times its value, and not that of
+/// motion turns by 2 rad.  The tolerance then bounds the error of a period, within ten times its value, and not that of
 /// a step.  Where there is water its drag ends what an error has begun.
 ///
 /// Tests: tests/parallel/adaptive_test.cpp
