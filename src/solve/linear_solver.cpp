@@ -73,6 +73,22 @@ std::optional<PivotReport> LinearSolver::pivots() const {
   return elimination_->pivots();
 }
 
+KSPConvergedReason LinearSolver::solve_outside_newton(Mat matrix, Vec right, Vec solution) {
+  petsc::Handle<KSP, KSPDestroy> own;
+  PC shared = nullptr;
+  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+  check(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(ksp_)), own.out()));
+  check(KSPGetPC(ksp_, &shared));
+  check(KSPSetPC(own, shared));
+  check(KSPSetOperators(own, matrix, matrix));
+  check(KSPSetType(own, KSPPREONLY));
+  check(KSPSetOptionsPrefix(own, prefix_of(ksp_)));
+  check(KSPSetFromOptions(own));
+  check(KSPSolve(own, right, solution));
+  check(KSPGetConvergedReason(own, &reason));
+  return reason;
+}
+
 void LinearSolver::recover() {
   if (elimination_) return;
   check(KSPReset(ksp_));

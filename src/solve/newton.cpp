@@ -114,15 +114,10 @@ void Newton::choose_line_search(bool searches) {
 
 void Newton::solve_acceleration(double t, Vec x, Vec v, Vec a) {
   const system::Vector force = assembler_.make_vector();
-  KSP ksp = nullptr;
-  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
   assembler_.force(t, x, v, force);
   assembler_.mass_matrix(t, x, v, tangent_);
   tangent_.publish();
-  check(SNESGetKSP(snes_, &ksp));
-  check(KSPSetOperators(ksp, tangent_.matrix(), tangent_.matrix()));
-  check(KSPSolve(ksp, force, a));
-  check(KSPGetConvergedReason(ksp, &reason));
+  const KSPConvergedReason reason = linear_.solve_outside_newton(tangent_.matrix(), force, a);
   if (reason < 0)
     throw SolverError(
         fmt::format("the first acceleration could not be solved for: the linear solver stopped with {}; "

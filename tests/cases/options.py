@@ -76,7 +76,7 @@ def results_do_not_depend_on_what_is_shown(bench):
         bench("run", "scene.yaml", "-o", "shown", *words)
         expect(bench.rows("shown") == bench.rows("plain"), f"{words[0]} leaves the numbers alone")
     for words in (("-snes_lag_jacobian", "2"), ("-snes_type", "newtontr"), ("-snes_fd",), ("-snes_test_jacobian",),
-                  ("-snes_lag_preconditioner", "2")):
+                  ("-snes_lag_preconditioner", "2"), ("-snes_ksp_ew",), ("-snes_ksp_ew", "-ksp_type", "gmres")):
         done = bench("run", "scene.yaml", "-o", "other", *words)
         last = [float(bench.rows(run)[-1]["tip.z"]) for run in ("plain", "other")]
         expect(done.returncode == 0 and abs(last[1] - last[0]) < 1e-6, f"{' '.join(words)} comes to the same: {last}")

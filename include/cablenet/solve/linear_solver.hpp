@@ -26,6 +26,9 @@ public:
   bool factors_are_dear() const { return factors_are_dear_; }
   /// What the last factorisation met; nothing where the elimination is not used.
   std::optional<PivotReport> pivots() const;
+  /// Solves with another matrix of the same kind, by a KSP of its own around the same preconditioner.  What SNES hangs
+  /// on its KSP (-snes_ksp_ew) asks for a residual of SNES, which there is not yet.
+  KSPConvergedReason solve_outside_newton(Mat matrix, Vec right, Vec solution);
   /// After a failure: PETSc would not try to factor another matrix after some.
   void recover();
   /// "preonly + lu (mumps), reason": what the KSP really is.
