@@ -257,7 +257,7 @@ bool Statics::factor_and_solve() {
 }
 
 /// @returns the share of the step to take.  The whole step goes too far where the force along it has turned round and
-/// is nearly as large as before: a minimum lies between.  It is taken all the same where the residual falls, as in drag.
+/// is nearly as large as before, as beyond a minimum.  It is taken all the same where the residual falls, as in drag.
 double Statics::search(const StaticRule& rule, double now, bool searches) {
   const double before = -dot(step_, r_);
   double share = 1;
