@@ -1,6 +1,7 @@
 #include "expression.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <ginac/ginac.h>
 #include <muParser.h>
 
@@ -173,6 +174,42 @@ ex parse(const std::string& text, const GiNaC::realsymbol& t) {
   return e;
 }
 
+std::string formula(const ex& e);
+
+/// The operands' formulas in an order of their own.
+std::string joined(std::vector<std::string> operands, const char* sign) {
+  std::sort(operands.begin(), operands.end());
+  return fmt::format("({})", fmt::join(operands, sign));
+}
+
+std::string product(const ex& e) {
+  std::vector<std::string> above, below;
+  for (const ex& factor : e) {
+    const bool divides = GiNaC::is_a<GiNaC::power>(factor) && factor.op(1).info(GiNaC::info_flags::negative);
+    divides ? below.push_back(formula(1 / factor)) : above.push_back(formula(factor));
+  }
+  if (above.empty()) above.emplace_back("1.0");
+  return below.empty() ? joined(above, "*") : joined(above, "*") + "/" + joined(below, "*");
+}
+
+/// In C notation.  GiNaC's own order of operands depends on addresses in memory.  Two processes would then round sums
+/// differently.
+std::string formula(const ex& e) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(17);
+  std::vector<std::string> operands;
+  if (GiNaC::is_a<GiNaC::mul>(e)) return product(e);
+  if (GiNaC::is_a<GiNaC::add>(e) || GiNaC::is_a<GiNaC::function>(e) || GiNaC::is_a<GiNaC::power>(e))
+    for (const ex& operand : e) operands.push_back(formula(operand));
+  if (GiNaC::is_a<GiNaC::add>(e)) return joined(operands, "+");
+  if (GiNaC::is_a<GiNaC::power>(e)) return fmt::format("pow({},{})", operands[0], operands[1]);
+  if (GiNaC::is_a<GiNaC::function>(e))
+    return fmt::format("{}({})", GiNaC::ex_to<GiNaC::function>(e).get_name(), operands[0]);
+  out << GiNaC::csrc_double << e;
+  return out.str();
+}
+
 /// x, dx/dt, d2x/dt2 in C notation, which muParser reads with `pow` and `Pi` added.
 std::string derivatives_as_text(const std::string& text) {
   const GiNaC::realsymbol t("t");
@@ -181,11 +218,7 @@ std::string derivatives_as_text(const std::string& text) {
   check_steps(text, x, t);
   const ex v = drop_step_slopes(x.diff(t));
   const ex a = drop_step_slopes(v.diff(t));
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out.precision(17);
-  out << GiNaC::csrc_double << x << " , " << v << " , " << a;
-  return out.str();
+  return fmt::format("{} , {} , {}", formula(x), formula(v), formula(a));
 }
 
 /// GiNaC's complaints in the words of someone who writes a scene.
