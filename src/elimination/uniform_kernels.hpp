@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -32,7 +33,7 @@ inline void load_block(double* block, const BlockSource& source, const Arrays& a
 /// Factors A in place: A = L U with unit L.  The reciprocals of the pivots stand on the diagonal.
 /// @returns the number of negative pivots, or -1 if one of them is zero to rounding
 inline int factor_block(double* a) {
-  const double largest = std::fmax(std::fmax(std::fabs(a[0]), std::fabs(a[4])), std::fabs(a[8]));
+  const double largest = std::max({std::fabs(a[0]), std::fabs(a[4]), std::fabs(a[8])});
   const double least = std::numeric_limits<double>::epsilon() * largest;
   const double p0 = a[0];
   a[0] = 1 / p0;
