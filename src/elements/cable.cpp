@@ -19,7 +19,7 @@ ForceTangent cable_force_tangent(const CableMaterial& m, double L, const Chord& 
 
 Vector3 energy_momentum_force(const CableMaterial& m, double L, const ChordStep& s) {
   const Stretch s0 = stretch(s.d0), s1 = stretch(s.d1);
-  return energy_momentum_force(step_tension<true>(m, L, {s0.l, s1.l, s.dt, s.xi, s.due}), s0, s1);
+  return step_tension<true>(m, L, {s0.l, s1.l, s.dt, s.xi, s.due}).T * mean_direction(s0, s1);
 }
 
 Matrix3 energy_momentum_tangent(const CableMaterial& m, double L, const ChordStep& s, Tangent kind) {

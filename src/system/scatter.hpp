@@ -57,9 +57,10 @@ template <class Nodes, bool owns_slot, class Block>
 void put_block(const TangentTarget& target, const Slot& slot, const Block& K) {
   if (Nodes::may_be_absent && slot.absent) return;
   double* to = (Nodes::may_be_absent && slot.other ? target.values[1] : target.values[0]) + slot.offset;
+  const std::ptrdiff_t stride = slot.stride;
   put_row(to, !owns_slot || slot.add, K(0, 0), K(0, 1), K(0, 2));
-  put_row(to + slot.stride, !owns_slot || slot.add, K(1, 0), K(1, 1), K(1, 2));
-  put_row(to + 2 * slot.stride, !owns_slot || slot.add, K(2, 0), K(2, 1), K(2, 2));
+  put_row(to + stride, !owns_slot || slot.add, K(1, 0), K(1, 1), K(1, 2));
+  put_row(to + 2 * stride, !owns_slot || slot.add, K(2, 0), K(2, 1), K(2, 2));
 }
 
 template <class Nodes, bool owns_slot, class Response>

@@ -15,6 +15,7 @@ struct Stretch {
 };
 
 inline Stretch stretch(const Vector3& d) { return {d, d.norm()}; }
+inline Vector3 direction(const Stretch& s) { return 1 / s.l * s.d; }
 
 inline bool is_elastic(const CableMaterial& m) {
   return m.axial_damping == 0 && m.mass_damping == 0 && !m.tension_only;

@@ -37,14 +37,15 @@ struct EnergyMomentumLaw {
     const Stretch s1 = stretch(s0.d + (e.d - s0.d) / alpha_f);
     LengthStep step{s0.l, s1.l, dt, xi, pace * start.grown};
     const TensionSlope tension = step_tension<general>(e.material, e.L, step);
-    f = energy_momentum_force(tension, s0, s1);
+    f = tension.T * mean_direction(s0, s1);
     if constexpr (with_tangent) {
       double turning = tension.T;
       if (e.turning.is_predicted) {
         step.l1 = expected_length(e.turning, s1, s0.l);
         turning = std::max(step_tension<general>(e.material, e.L, step).T, e.turning.least);
       }
-      K = 1 / alpha_f * energy_momentum_tangent(tension.slope, turning, s0, s1, kind);
+      K = energy_momentum_tangent(1 / alpha_f * tension.slope, 1 / alpha_f * turning, s0, s1, kind);
+      keep_direction(e.turning, s1);
     }
     return s1.l > 0;
   }

@@ -55,17 +55,15 @@ TensionSlope step_tension(const CableMaterial& m, double L, const LengthStep& s)
   return {r.taut * full, r.dtaut * full + r.taut * (k * (0.5 + s.xi) * r.dp1 + rate)};
 }
 
-inline Vector3 energy_momentum_force(const TensionSlope& tension, const Stretch& s0, const Stretch& s1) {
-  return tension.T / (s0.l + s1.l) * (s0.d + s1.d);
-}
+/// Along which the tension acts.  It is 1 long where the chord does not turn.
+inline Vector3 mean_direction(const Stretch& s0, const Stretch& s1) { return 1 / (s0.l + s1.l) * (s0.d + s1.d); }
 
 /// @param turning  the tension that turns the chord: the step's, or one that was predicted [N]
 inline Matrix3 energy_momentum_tangent(double slope, double turning, const Stretch& s0, const Stretch& s1,
                                        Tangent kind) {
-  const double both = 1 / (s0.l + s1.l);
-  const Vector3 mean = both * (s0.d + s1.d);
+  const Vector3 mean = mean_direction(s0, s1), end = direction(s1);
   if (kind == Tangent::secant) return slope * mean * mean.transpose();
-  return axial_and_turning(slope, both * turning, mean, 1 / s1.l * s1.d);
+  return axial_and_turning(slope, 1 / (s0.l + s1.l) * turning, mean, end);
 }
 
 }   // namespace cablenet::elements

@@ -52,6 +52,7 @@ struct StageLaw {
       const ForceTangent tangent = instant_tangent<general>(e.material, e.L, s, e.w, T, turning, kind);
       K = tangent.d;
       if constexpr (general) K += e.shift_v * tangent.w;
+      keep_direction(e.turning, s);
     }
     return s.l > 0;
   }

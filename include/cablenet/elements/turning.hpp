@@ -16,12 +16,15 @@ struct Turning {
   double least = -std::numeric_limits<double>::infinity();   ///< that the predicted tension is taken for [N]
 };
 
-/// The length that a chord is expected to have, with its direction kept for the next time.
-/// @param at_first  that of a solve's first tangent [m]
+/// The length that a chord is expected to have.  @param at_first  that of a solve's first tangent [m]
 inline double expected_length(const Turning& turning, const Stretch& s, double at_first) {
-  const double length = turning.last == nullptr ? at_first : turning.last->dot(s.d);
-  *turning.now = 1 / s.l * s.d;
-  return length;
+  return turning.last == nullptr ? at_first : turning.last->dot(s.d);
+}
+
+/// Keeps the chord's direction for the next tangent.  A law does so last: the compiler has to expect that what it
+/// writes is what the law has read.
+inline void keep_direction(const Turning& turning, const Stretch& s) {
+  if (turning.is_predicted) *turning.now = direction(s);
 }
 
 }   // namespace cablenet::elements
