@@ -63,6 +63,9 @@ AlphaStepper::AlphaStepper(const system::Assembler& assembler, StageEquations& e
   keep_weights(stepper_, time, prefix);
   equations_.adopt_options();
   check(TSAdaptGetScaleSolveFailed(adapt_, &failed_scale_));
+  PetscBool fixed = PETSC_TRUE;
+  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(adapt_), TSADAPTNONE, &fixed));
+  user_adapts_ = fixed == PETSC_FALSE;
   keeps_mean_acceleration_ = read_step().is_centred();
   keeps_own_acceleration_ = keeps_mean_acceleration_ && read_step().alpha_m != 0.5;
   shows_while_solving_ = petsc::shows_while_solving();
@@ -115,12 +118,6 @@ long AlphaStepper::most_steps() const {
   PetscInt steps = 0;
   check(TSGetMaxSteps(stepper_, &steps));
   return steps;
-}
-
-bool AlphaStepper::user_adapts() const {
-  PetscBool fixed = PETSC_TRUE;
-  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(adapt_), TSADAPTNONE, &fixed));
-  return fixed == PETSC_FALSE;
 }
 
 void AlphaStepper::control_errors(std::function<bool(double, double)> accepts, double scale) {
@@ -237,7 +234,6 @@ PetscErrorCode AlphaStepper::jacobian(TS, PetscReal, Vec, Vec, Vec, PetscReal, P
 PetscErrorCode AlphaStepper::begin_solve(SNES, Vec x, void* self) noexcept {
   PetscFunctionBeginUser;
   auto& stepper = *static_cast<AlphaStepper*>(self);
-  stepper.step_ = stepper.read_step();
   // The stepper's own vectors stay at the step's start until it is accepted.
   stepper.equations_.begin_solve(stepper.step_, stepper.step_start(), x);
   PetscFunctionReturn(petsc::success);
@@ -247,7 +243,8 @@ PetscErrorCode AlphaStepper::begin_stage(TS ts, PetscReal) noexcept {
   PetscFunctionBeginUser;
   AlphaStepper* stepper = nullptr;
   PetscCall(TSGetApplicationContext(ts, &stepper));
-  if (!stepper->read_step().is_start()) ++stepper->attempts_;
+  stepper->step_ = stepper->read_step();
+  if (!stepper->step_.is_start()) ++stepper->attempts_;
   // The first attempts differ in their tangents alone.
   const int attempt = stepper->attempts_;
   if (attempt > 1 && attempt <= most_of_a_length) stepper->repeats_ = attempt - 1;

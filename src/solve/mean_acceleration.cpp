@@ -1,17 +1,14 @@
 #include "cablenet/solve/mean_acceleration.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "cablenet/petsc/values.hpp"
 
 namespace cablenet::solve {
 namespace {
 
-/// The lesser of two changes, or none where they differ in sign.
-double lesser(double one, double other) {
-  return one * other > 0 ? std::copysign(std::min(std::abs(one), std::abs(other)), one) : 0;
-}
+/// The lesser of two changes, or none where they differ in sign: the middle one of the two and 0.
+double lesser(double one, double other) { return std::clamp(0.0, std::min(one, other), std::max(one, other)); }
 
 }   // namespace
 

@@ -151,8 +151,7 @@ void Newton::begin_solve(const AlphaStep& step, const StepStart& start, Vec gues
   tangent_at_ = {};
   reuse_.begin_solve(step.is_start() ? -step.dt : step.dt, attempt_ > 1);
   if (step.is_start()) return;
-  check(VecWAXPY(guess, step.dt, start.v, start.x));
-  check(VecAXPY(guess, step.dt * step.dt / 2, start.expected_a));
+  check(VecAXPBYPCZ(guess, step.dt, step.dt * step.dt / 2, 1, start.v, start.expected_a));
 }
 
 void Newton::residual(Vec x, Vec v, Vec a, Vec r) {
@@ -224,10 +223,10 @@ bool Newton::is_at_positions_rounding(double correction, double positions) const
   return is_full && correction <= smallest_correction * std::numeric_limits<double>::epsilon() * positions;
 }
 
-bool Newton::is_at_rounding(PetscInt iteration, double norm) {
+bool Newton::is_at_rounding(PetscInt iteration, double norm, double noise) {
   const bool careful = searches_ || (user_line_search_ && iteration > 0);
   const bool settled =
-      convergence_.is_at_rounding(static_cast<int>(iteration), norm, noise(), careful, converges_linearly());
+      convergence_.is_at_rounding(static_cast<int>(iteration), norm, noise, careful, converges_linearly());
   if (iteration > 0) reuse_.note_correction(static_cast<int>(iteration), convergence_.contraction());
   return settled;
 }
@@ -237,10 +236,11 @@ SNESConvergedReason Newton::test(PetscInt iteration, PetscReal xnorm, PetscReal 
   SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
   check(SNESConvergedDefault(snes_, iteration, xnorm, snorm, fnorm, &reason, nullptr));
   const bool linear_and_solved = step_.is_start() && iteration >= 1;
-  bool settled = !step_.is_start() && is_at_rounding(iteration, fnorm);
+  const double noise = this->noise();
+  bool settled = !step_.is_start() && is_at_rounding(iteration, fnorm, noise);
   if (iteration > 0 && !converges_linearly()) settled = settled || is_at_positions_rounding(snorm, xnorm);
   if (reason == SNES_CONVERGED_ITERATING && (settled || linear_and_solved)) reason = SNES_CONVERGED_FNORM_ABS;
-  progress_.note(static_cast<int>(iteration), fnorm, NewtonConvergence::most_of_noise * noise());
+  progress_.note(static_cast<int>(iteration), fnorm, NewtonConvergence::most_of_noise * noise);
   shorten_where_it_returns();
   if (reason == SNES_CONVERGED_ITERATING && !progress_.goes_on()) reason = SNES_DIVERGED_MAX_IT;
   return reason;

@@ -47,7 +47,7 @@ public:
   double end() const;
   long most_steps() const;
   /// The user's -ts_adapt_type chooses the steps.
-  bool user_adapts() const;
+  bool user_adapts() const { return user_adapts_; }
 
   /// `accepts` is told the local error [m] and the length [s] of each attempt.  Where it answers false the attempt is
   /// refused, and the next one is `scale` times as long.
@@ -106,7 +106,7 @@ private:
   TSAdapt adapt_ = nullptr;
   AlphaStep step_{};
   bool keeps_mean_acceleration_ = false, keeps_own_acceleration_ = false;
-  bool shows_while_solving_ = true;
+  bool shows_while_solving_ = true, user_adapts_ = false;
   int attempts_ = 0, repeats_ = 0;   ///< at the running step; repeats did not shorten it
   double t_ = 0, dt_ = 0;
   long rejected_ = 0, newton_ = 0, linear_ = 0;   ///< so far

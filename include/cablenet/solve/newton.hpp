@@ -70,7 +70,7 @@ private:
   void choose_line_search(bool searches);
   /// The 2-norm of a residual that is rounding alone.  [N]
   double noise() const { return scales_.rounding(largest_coordinate_, step_.shift_a()) / step_.alpha_f; }
-  bool is_at_rounding(PetscInt iteration, double norm);
+  bool is_at_rounding(PetscInt iteration, double norm, double noise);
   SNESConvergedReason test(PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm);
   system::TangentRequest tangent_request();
   bool predicts() const;

@@ -18,7 +18,7 @@ public:
   /// @param attempt  at the running step, from 1 on; the first three have the same length
   virtual void begin_attempt(int attempt) = 0;
   /// @param start  of the step
-  /// @param guess  of the positions at the step's end; where it is left alone, those at the start
+  /// @param guess  the positions at the step's start, and a guess of those at its end when this returns
   virtual void begin_solve(const AlphaStep& step, const StepStart& start, Vec guess) = 0;
   /// r = the residual at the stage [N].  Infinite where it is undefined.
   virtual void residual(Vec x, Vec v, Vec a, Vec r) = 0;
