@@ -112,15 +112,15 @@ std::unique_ptr<NetworkPc> NetworkPc::make(const partition::LocalNetwork& networ
 void NetworkPc::attach(PC pc) {
   check(PCSetType(pc, PCSHELL));
   check(PCShellSetName(pc, "network elimination"));
-  check(PCShellSetContext(pc, impl_.get()));
+  check(PCSetApplicationContext(pc, impl_.get()));
   check(PCShellSetSetUp(pc, [](PC shell) noexcept -> PetscErrorCode {
     void* impl = nullptr;
-    PetscCall(PCShellGetContext(shell, &impl));
+    PetscCall(PCGetApplicationContext(shell, &impl));
     return static_cast<Impl*>(impl)->set_up(shell);
   }));
   check(PCShellSetApply(pc, [](PC shell, Vec b, Vec x) noexcept -> PetscErrorCode {
     void* impl = nullptr;
-    PetscCall(PCShellGetContext(shell, &impl));
+    PetscCall(PCGetApplicationContext(shell, &impl));
     return static_cast<Impl*>(impl)->apply(shell, b, x);
   }));
 }
