@@ -4,8 +4,7 @@
 
 namespace cablenet::petsc {
 
-void check(int code, const char* file, int line) {
-  if (code == 0) return;
+void fail(int code, const char* file, int line) {
   const char* text = nullptr;
   PetscErrorMessage(static_cast<PetscErrorCode>(code), &text, nullptr);
   throw Failure(fmt::format("PETSc error {} ({}) at {}:{}", code, text == nullptr ? "unknown" : text, file, line));

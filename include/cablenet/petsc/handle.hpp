@@ -20,9 +20,13 @@ struct Failure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+[[noreturn]] void fail(int code, const char* file, int line);
+
 /// @throws Failure with PETSc's text and the caller's file:line if code is an error.
 /// The built-ins are those of std::source_location, which clang 14 does not have.
-void check(int code, const char* file = __builtin_FILE(), int line = __builtin_LINE());
+inline void check(int code, const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+  if (code != 0) fail(code, file, line);
+}
 
 /// Move-only owner of one PETSc object.
 template <class T, auto Destroy>
