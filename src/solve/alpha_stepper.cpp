@@ -126,10 +126,25 @@ void AlphaStepper::control_errors(std::function<bool(double, double)> accepts, d
   check(TSAdaptSetCheckStage(adapt_, check_error));
 }
 
+/// A dissipative method turns what its own acceleration holds, dt^2 delta^2/8 own_a . M own_a, into motion.  So it
+/// starts with none.
 void AlphaStepper::restart() {
-  check(VecCopy(a_, own_a_));
   check(VecCopy(a_, expected_a_));
+  check(VecSet(own_a_, 0));
+  restart_with(keeps_own_acceleration_ ? own_a_ : a_);
+}
+
+/// What the own acceleration holds must not grow with the step.
+void AlphaStepper::limit_own_acceleration(double dt) {
+  constexpr double rounding = 1e-9;
+  if (!keeps_own_acceleration_ || taken_ == 0 || dt <= (1 + rounding) * taken_) return;
+  check(VecScale(own_a_, taken_ / dt));
   restart_with(own_a_);
+}
+
+StepStart AlphaStepper::step_start() const {
+  return {x_, v_, a_, keeps_mean_acceleration_ ? expected_a_ : a_,
+          keeps_own_acceleration_ ? static_cast<Vec>(own_a_) : nullptr};
 }
 
 void AlphaStepper::restart_with(Vec acceleration) {
@@ -144,6 +159,7 @@ void AlphaStepper::begin(double t, double dt) {
   repeats_ = 0;
   if (!keeps_mean_acceleration_) check(VecCopy(x_, x0_));
   check(VecCopy(v_, v0_));
+  limit_own_acceleration(dt);
   check(TSSetTime(stepper_, t));
   check(TSSetTimeStep(stepper_, dt));
 }
@@ -175,6 +191,7 @@ AlphaStepper::Outcome AlphaStepper::attempt() {
 /// the truth, the step's mean is kept as well.
 void AlphaStepper::accept(double taken) {
   local_error_.accept();
+  taken_ = taken;
   if (keeps_mean_acceleration_) {
     mean_acceleration_.advance(taken, v0_, v_, a_, expected_a_);
     if (keeps_own_acceleration_) check(VecAXPBY(own_a_, 1 / step_.alpha_m, 1 - 1 / step_.alpha_m, a_));
@@ -194,6 +211,7 @@ void AlphaStepper::archive(Archive& archive) {
   archive_vector(archive, "v", v_);
   archive_vector(archive, "a", a_);
   if (keeps_own_acceleration_) archive_vector(archive, "own a", own_a_);
+  archive.item("taken", taken_);
   if (keeps_mean_acceleration_) {
     archive_vector(archive, "expected a", expected_a_);
     mean_acceleration_.archive(archive);

@@ -151,7 +151,9 @@ void Newton::begin_solve(const AlphaStep& step, const StepStart& start, Vec gues
   tangent_at_ = {};
   reuse_.begin_solve(step.is_start() ? -step.dt : step.dt, attempt_ > 1);
   if (step.is_start()) return;
-  check(VecAXPBYPCZ(guess, step.dt, step.dt * step.dt / 2, 1, start.v, start.expected_a));
+  const double share = start.own_a != nullptr ? step.share_of_mean() : 1, half_square = step.dt * step.dt / 2;
+  check(VecAXPBYPCZ(guess, step.dt, share * half_square, 1, start.v, start.expected_a));
+  if (start.own_a != nullptr) check(VecAXPY(guess, (1 - share) * half_square, start.own_a));
 }
 
 void Newton::residual(Vec x, Vec v, Vec a, Vec r) {

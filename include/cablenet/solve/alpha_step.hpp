@@ -16,6 +16,9 @@ struct AlphaWeights {
   /// acceleration, at the step's end, alternates about the true one from step to step.  At spectral radius 1 that never
   /// ends.
   bool is_centred() const { return alpha_f == 0.5 && alpha_m == gamma; }
+  /// The s in a centred method's x1 = x0 + dt v0 + dt^2/2 (s m + (1 - s) a0), where m is the step's mean acceleration.
+  /// It is 1 at spectral radius 1.
+  double share_of_mean() const { return 2 * beta / alpha_m; }
 };
 
 /// The weights and the length of a step.

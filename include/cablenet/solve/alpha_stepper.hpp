@@ -84,7 +84,8 @@ public:
 private:
   void configure(const scene::Time& time, long most_steps, const char* prefix);
   void restart_with(Vec acceleration);
-  StepStart step_start() const { return {x_, v_, a_, keeps_mean_acceleration_ ? expected_a_ : a_}; }
+  void limit_own_acceleration(double dt);
+  StepStart step_start() const;
   AlphaStep read_step() const;
   bool accepts_error();
 
@@ -98,7 +99,7 @@ private:
   const partition::LocalNetwork& network_;
   StageEquations& equations_;
   system::Vector x_, v_, a_;
-  system::Vector expected_a_, own_a_;   ///< StepStart::expected_a; TSALPHA2's own, where it is not a_ and is needed
+  system::Vector expected_a_, own_a_;   ///< of StepStart, where they are needed
   system::Vector x0_, v0_;              ///< at the step's start
   system::Vector start_acceleration_;
   TimeStepper stepper_;
@@ -107,8 +108,8 @@ private:
   AlphaStep step_{};
   bool keeps_mean_acceleration_ = false, keeps_own_acceleration_ = false;
   bool shows_while_solving_ = true, user_adapts_ = false;
-  int attempts_ = 0, repeats_ = 0;   ///< at the running step; repeats did not shorten it
-  double t_ = 0, dt_ = 0;
+  int attempts_ = 0, repeats_ = 0;      ///< at the running step; repeats did not shorten it
+  double t_ = 0, dt_ = 0, taken_ = 0;   ///< of the running step [s], and the length of the last; 0: there was none
   long rejected_ = 0, newton_ = 0, linear_ = 0;   ///< so far
   std::function<bool(double, double)> accepts_;
   PetscReal failed_scale_ = 1;   ///< the length of the next attempt over one at which Newton's method failed

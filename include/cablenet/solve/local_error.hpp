@@ -15,6 +15,7 @@ struct StepStart {
   Vec v;            ///< [m/s]
   Vec a;            ///< the acceleration that is kept: as AlphaStepper::a() [m/s^2]
   Vec expected_a;   ///< a guess of the step's mean acceleration, by those of the steps before [m/s^2]
+  Vec own_a;        ///< the method's own acceleration, where it is centred and x1 depends on it; else null [m/s^2]
 };
 
 /// The local error of a step: the distance by which this step alone leads a node astray.
