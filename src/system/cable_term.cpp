@@ -115,7 +115,7 @@ std::vector<typename Law::Start>& CableTerm::starts() {
 }
 
 void CableTerm::begin_step(Evaluation& evaluation) {
-  last_dt_ = taken_dt_;
+  before_ = taken_;
   const auto record = [&]<class Law>(const Law& law) {
     if constexpr (!std::is_same_v<typename Law::Start, elements::NoStart>) {
       auto& starts = this->starts<Law>();
@@ -132,7 +132,7 @@ void CableTerm::begin_step(Evaluation& evaluation) {
       visit(Range{network_.inner_elements, static_cast<int>(network_.elements.size())}, AnyNodes{evaluation.data});
     }
   };
-  std::visit(record, choose_law(evaluation.rule, evaluation.situation, is_general_, last_dt_));
+  std::visit(record, choose_law(evaluation.rule, evaluation.situation, is_general_, before_));
 }
 
 /// The carried kernel asks twice, so that what is read and what is written are two arrays.
@@ -149,7 +149,7 @@ void CableTerm::add(Evaluation& evaluation) {
     const CableKernel<Law> kernel{network_, law, starts<Law>().data(), turning(evaluation)};
     add_to_elements(evaluation, kernel, evaluation.target.shift);
   };
-  std::visit(add_by, choose_law(evaluation.rule, evaluation.situation, is_general_, last_dt_));
+  std::visit(add_by, choose_law(evaluation.rule, evaluation.situation, is_general_, before_));
 }
 
 void CableTerm::add_energy(const LocalState& state, Energies& sum) const {
@@ -166,12 +166,20 @@ void CableTerm::add_energy(const LocalState& state, Energies& sum) const {
 /// The change of elongation in a step is that from the step's start before.
 void CableTerm::archive(Archive& archive) {
   auto& reached = std::get<std::vector<elements::ReachedStart>>(starts_);
-  std::vector<double> lengths;
-  for (const auto& start : reached) lengths.push_back(start.s.l);
-  archive.item("cables.taken_dt", taken_dt_);
+  std::vector<double> lengths, due;
+  for (const auto& start : reached) {
+    lengths.push_back(start.s.l);
+    due.push_back(start.due);
+  }
+  archive.item("cables.taken_dt", taken_.dt);
+  archive.item("cables.taken_pace", taken_.pace);
   archive.item("cables.lengths", lengths);
+  archive.item("cables.due", due);
   reached.resize(lengths.size());
-  for (std::size_t i = 0; i < reached.size(); ++i) reached[i].s.l = lengths[i];
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    reached[i].s.l = lengths[i];
+    reached[i].due = due[i];
+  }
 }
 
 void CableTerm::add_scales(const LocalState& state, ForceSums& sums) const {

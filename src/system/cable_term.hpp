@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "cablenet/elements/energy_momentum_law.hpp"
+#include "law_choice.hpp"
 #include "term.hpp"
 
 namespace cablenet::system {
@@ -21,7 +22,7 @@ public:
   void add(Evaluation& evaluation);
   void add_energy(const LocalState& state, Energies& sum) const;
   void add_scales(const LocalState& state, ForceSums& sums) const;
-  void end_step(const StepEnd& end) { taken_dt_ = end.stage.dt; }
+  void end_step(const StepEnd& end) { taken_ = {end.stage.dt, step_pace(end.stage.dt, before_.dt)}; }
   Vector3 end_force(const LocalState& state, int element, std::size_t end) const;
   void archive(Archive& archive);
 
@@ -36,8 +37,8 @@ private:
              std::vector<elements::AveragedStart<true>>, std::vector<elements::ReachedStart>,
              std::vector<elements::Stretch>>
       starts_;
-  double taken_dt_ = 0;   ///< of the last accepted step [s]; 0: there was none
-  double last_dt_ = 0;    ///< of the step before the running one [s]
+  StepBefore taken_;    ///< the last accepted step
+  StepBefore before_;   ///< the step before the running one
   /// The chords' directions at the last tangent, and where those at the present one are kept.
   std::array<std::vector<Vector3>, 2> directions_;
 };

@@ -9,13 +9,11 @@ using elements::AveragedLaw, elements::EnergyMomentumLaw, elements::StageLaw;
 using scene::Scheme;
 
 template <bool general>
-LawChoice law_of_step(const ForceRule& rule, const Stage& stage, double last_dt) {
-  const bool is_first = last_dt == 0;
-  // A longer step is not to expect more: the scheme's proof needs that.
-  const double pace = is_first ? stage.dt : std::min(1.0, stage.dt / last_dt);
+LawChoice law_of_step(const ForceRule& rule, const Stage& stage, const StepBefore& before) {
   switch (rule.scheme) {
     case Scheme::energy_momentum:
-      return EnergyMomentumLaw<general>{rule.tangent, stage.alpha_f, stage.dt, rule.axial_dissipation, pace, is_first};
+      return EnergyMomentumLaw<general>{
+          rule.tangent, stage.alpha_f, stage.dt, rule.axial_dissipation, step_pace(stage.dt, before.dt), before.pace};
     case Scheme::generalized_alpha:
       return AveragedLaw<general>{{rule.tangent}, stage.alpha_f};
     case Scheme::plain:
@@ -50,11 +48,11 @@ BarLaw choose_bar_law(const ForceRule& rule, const Situation& situation) {
   return BarLaw::none;
 }
 
-LawChoice choose_law(const ForceRule& rule, const Situation& situation, bool is_general, double last_dt) {
+LawChoice choose_law(const ForceRule& rule, const Situation& situation, bool is_general, const StepBefore& before) {
   switch (situation.internal) {
     case InternalForce::of_step:
-      return is_general ? law_of_step<true>(rule, situation.stage, last_dt)
-                        : law_of_step<false>(rule, situation.stage, last_dt);
+      return is_general ? law_of_step<true>(rule, situation.stage, before)
+                        : law_of_step<false>(rule, situation.stage, before);
     case InternalForce::of_instant:
       return elements::StageLaw<true>{rule.tangent};
     case InternalForce::of_statics:

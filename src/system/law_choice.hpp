@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <variant>
 
 #include "cablenet/elements/energy_momentum_law.hpp"
@@ -23,8 +24,18 @@ enum class BarLaw {
 };
 BarLaw choose_bar_law(const ForceRule& rule, const Situation& situation);
 
+/// How much of ReachedStart::due counts in a step of length dt [s].  A longer step is not to expect more, nor the first
+/// one anything: the scheme's proof needs that.
+/// @param last_dt  of the step before [s]; 0: there was none
+inline double step_pace(double dt, double last_dt) { return last_dt > 0 ? std::min(1.0, dt / last_dt) : 0; }
+
+/// The step before the running one.
+struct StepBefore {
+  double dt = 0;     ///< [s]; 0: there was none
+  double pace = 0;   ///< step_pace() in it
+};
+
 /// @param is_general  some material is damped, or goes slack
-/// @param last_dt     of the step before [s]; 0: there was none
-LawChoice choose_law(const ForceRule& rule, const Situation& situation, bool is_general, double last_dt);
+LawChoice choose_law(const ForceRule& rule, const Situation& situation, bool is_general, const StepBefore& before);
 
 }   // namespace cablenet::system

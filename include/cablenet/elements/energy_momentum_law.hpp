@@ -9,7 +9,7 @@ namespace cablenet::elements {
 /// What the law keeps of an element at a step's start.
 struct ReachedStart {
   Stretch s;
-  double grown;   ///< the change of the elongation that carries tension, in the step before [m]; see EnergyMomentumLaw
+  double due;   ///< next_due() of the step before [m]
 };
 
 /// Energy-momentum, at alpha_f = 1/2.
@@ -21,21 +21,21 @@ struct EnergyMomentumLaw {
   double alpha_f;
   double dt;
   double xi;
-  double pace;     ///< over ReachedStart::grown: what is expected to be carried in this step
-  bool is_first;   ///< No step came before.  The rate of the elongation [m/s] stands in for what has grown in one.
+  double pace;         ///< over ReachedStart::due in this step; 0 where none came before
+  double taken_pace;   ///< likewise in the step before
 
   void begin(const ElementStart& e, Start& start) const {
     const Stretch s = stretch(e.d);
     const double carried = carried_elongation<general>(e.material, s.l - e.L);
-    start.grown = carried - carried_elongation<general>(e.material, start.s.l - e.L);
-    if (is_first) start.grown = carries<general>(e.material, s.l - e.L) ? s.d.dot(e.w) / s.l : 0.0;
+    const double grown = carried - carried_elongation<general>(e.material, start.s.l - e.L);
+    start.due = next_due(grown, taken_pace * start.due);
     start.s = s;
   }
   template <bool with_tangent>
   bool evaluate(const Start& start, const ElementStage& e, Vector3& f, Matrix3& K) const {
     const Stretch& s0 = start.s;
     const Stretch s1 = stretch(s0.d + (e.d - s0.d) / alpha_f);
-    LengthStep step{s0.l, s1.l, dt, xi, pace * start.grown};
+    LengthStep step{s0.l, s1.l, dt, xi, pace * start.due};
     const TensionSlope tension = step_tension<general>(e.material, e.L, step);
     f = tension.T * mean_direction(s0, s1);
     if constexpr (with_tangent) {

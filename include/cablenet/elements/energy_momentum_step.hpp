@@ -36,6 +36,15 @@ struct LengthStep {
   double due;      ///< the change of p that the step before lets expect [m]
 };
 
+/// What the change of p is expected to be in the next step, after one in which it was `grown` instead of `due`:
+///   due' = grown + a (grown - due)
+/// With a = 0 the term in xi would be a second difference.  For the same effect where p alternates from step to step,
+/// this filter has 16 times less where p is smooth.  Energy never comes from it: src/numerics.md.
+inline double next_due(double grown, double due) {
+  constexpr double a = 0.8;
+  return grown + a * (grown - due);
+}
+
 /// The elongation that carries tension.  [m]
 template <bool general>
 double carried_elongation(const CableMaterial& m, double elongation) {
