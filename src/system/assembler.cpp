@@ -70,6 +70,7 @@ void Assembler::begin(const Situation& situation, Vec x, Vec v) {
   parts_->bodies().start_step(data);
   for_each_term(parts_->terms, [&](auto& term) { term.begin_step(evaluation); });
   if (parts_->accounts) parts_->accounts->begin_step(evaluation);
+  if (parts_->tensions) parts_->tensions->add(evaluation, std::get<CableTerm>(parts_->terms).reached());
 }
 
 void Assembler::begin_step(double t, Vec x, Vec v) {
@@ -191,6 +192,10 @@ Vector3 Assembler::node_force(LocalNode node) const {
   return sum;
 }
 
+void Assembler::keep_tensions() { parts_->tensions = std::make_unique<TensionRecord>(network_); }
+
+std::span<const ElementTension> Assembler::tensions() { return parts_->tensions->until(state_); }
+
 /// Accelerations have no part in it.
 ForceScales Assembler::force_scales(double t, Vec x, Vec v) {
   observe(t, x, v, v);
@@ -214,6 +219,7 @@ void Assembler::archive(Archive& archive) {
   parts_->prescribed.archive(archive);
   for_each_term(parts_->terms, [&](auto& term) { term.archive(archive); });
   if (parts_->accounts) parts_->accounts->archive(archive);
+  if (parts_->tensions) parts_->tensions->archive(archive);
 }
 
 }   // namespace cablenet::system

@@ -2,6 +2,7 @@
 #include "cablenet/system/assembler.hpp"
 #include "energy_accounts.hpp"
 #include "prescribed_nodes.hpp"
+#include "tension_record.hpp"
 #include "terms.hpp"
 
 /// What an assembler is made of.
@@ -48,6 +49,7 @@ struct Assembler::Parts {
   bool has_rates = false;
   StageVectors last_residual;
   std::unique_ptr<EnergyAccounts> accounts;   ///< where they are kept
+  std::unique_ptr<TensionRecord> tensions;    ///< likewise
 };
 
 }   // namespace cablenet::system

@@ -25,6 +25,10 @@ public:
   void end_step(const StepEnd& end) { taken_ = {end.stage.dt, step_pace(end.stage.dt, before_.dt)}; }
   Vector3 end_force(const LocalState& state, int element, std::size_t end) const;
   void archive(Archive& archive);
+  /// The elements at the running step's start, where the law in use keeps them.
+  std::span<const elements::ReachedStart> reached() const {
+    return std::get<std::vector<elements::ReachedStart>>(starts_);
+  }
 
 private:
   template <class Law>

@@ -2,6 +2,7 @@
 #include <petscvec.h>
 
 #include <memory>
+#include <span>
 
 #include "cablenet/base/archive.hpp"
 #include "cablenet/partition/local_network.hpp"
@@ -12,6 +13,7 @@
 #include "cablenet/system/local_state.hpp"
 #include "cablenet/system/situation.hpp"
 #include "cablenet/system/tangent_matrix.hpp"
+#include "cablenet/system/tensions.hpp"
 
 /// Residual and tangent of M a + beta M v + f_int = loads on the distributed network, its bodies included, as the sum
 /// of the terms in src/system/terms.hpp.  Tests: tests/parallel/assembler_test.cpp, bodies_test.cpp
@@ -68,6 +70,11 @@ public:
   void keep_accounts();
   /// Up to the last step's end; nullptr where no accounts are kept.  Not collective.
   const EnergySummary* energy_summary() const;
+  /// From the next step on, the extremes of tension are kept.  Not collective.
+  void keep_tensions();
+  /// Of the elements that this rank speaks for, in their order, up to the observed state.  Not collective.
+  /// @pre observe, keep_tensions
+  std::span<const ElementTension> tensions();
   /// What must pull at an element's end for the observed motion, water and bed included.  [N]  Not collective.
   /// @param element  an index into LocalNetwork::elements   @param end  0 or 1
   Vector3 end_force(int element, std::size_t end) const;
