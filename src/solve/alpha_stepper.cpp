@@ -120,7 +120,7 @@ long AlphaStepper::most_steps() const {
   return steps;
 }
 
-void AlphaStepper::control_errors(std::function<bool(double, double)> accepts, double scale) {
+void AlphaStepper::control_errors(std::function<bool(const Error&, double)> accepts, double scale) {
   accepts_ = std::move(accepts);
   refused_scale_ = scale;
   check(TSAdaptSetCheckStage(adapt_, check_error));
@@ -190,7 +190,7 @@ AlphaStepper::Outcome AlphaStepper::attempt() {
 /// TSALPHA2 keeps its acceleration to itself, so it is computed again by the same formula.  Where it alternates about
 /// the truth, the step's mean is kept as well.
 void AlphaStepper::accept(double taken) {
-  local_error_.accept();
+  local_error_.accept(step_);
   taken_ = taken;
   if (keeps_mean_acceleration_) {
     mean_acceleration_.advance(taken, v0_, v_, a_, expected_a_);
@@ -273,10 +273,12 @@ PetscErrorCode AlphaStepper::begin_stage(TS ts, PetscReal) noexcept {
 
 bool AlphaStepper::accepts_error() {
   if (step_.is_start()) return true;
-  Vec end = nullptr;
-  check(SNESGetSolution(snes_, &end));
-  error_ = local_error_.estimate(step_, network_, step_start(), mean_acceleration_.growth(), end);
-  return accepts_(error_, step_.dt);
+  const Error error = [this] {
+    Vec end = nullptr;
+    check(SNESGetSolution(snes_, &end));
+    return local_error_.estimate(step_, network_, step_start(), mean_acceleration_.growth(), end);
+  };
+  return accepts_(error, step_.dt);
 }
 
 /// PETSc calls this after each stage that Newton's method has solved.

@@ -30,12 +30,26 @@ Dynamics::Dynamics(system::Assembler& assembler, const scene::Time& time, const 
                              std::numeric_limits<double>::infinity());
   if (settings.keeps_accounts || is_watched_) assembler.keep_accounts();
   time_.step = stepper_.first_step();
+  if (settings.takes_notes) take_notes();
   if (!time.tolerance || petsc::has_option("-ts_adapt_type", settings.prefix)) return;
   const double span = time.end - time.start, interval = settings.output_interval;
   const double longest = interval > 0 ? std::min(interval, span) : span;
   control_.emplace(*time.tolerance, time_.step, longest, smallest_step * time_.step, stepper_.error_order());
-  stepper_.control_errors([this](double error, double dt) { return control_->accepts(error, dt); },
+  stepper_.control_errors([this](const auto& error, double dt) { return control_->accepts(error(), dt); },
                           StepControl::refused_scale);
+}
+
+/// Who adapts steps is told their errors, or has means of his own to judge them.
+void Dynamics::take_notes() {
+  assembler_.keep_tensions();
+  if (time_.tolerance || stepper_.user_adapts()) return;
+  survey_.emplace(assembler_.network());
+  stepper_.control_errors(
+      [this](const auto& error, double) {
+        if (StepSurvey::looks_at(counts_.steps)) survey_->add_error(error());
+        return true;
+      },
+      1);
 }
 
 /// M a0 = f(t0, x0, v0).
@@ -96,6 +110,7 @@ bool Dynamics::step(double dt) {
 
 void Dynamics::accept(double t, const AlphaStepper::Outcome& outcome) {
   last_step_ = outcome.taken;
+  if (survey_) survey_->end_step(counts_.steps, outcome.taken, stepper_.x());
   ++counts_.steps;
   assembler_.end_step({t, outcome.taken, stepper_.step().alpha_f}, stepper_.x(), stepper_.v());
   stepper_.accept(outcome.taken);
@@ -109,6 +124,11 @@ void Dynamics::explain_failure(double dt) {
   failure_ = newton_.has_converged() && control_ ? control_->refusal(stepper_.step().dt) : newton_.explain_failure(dt);
 }
 
+std::optional<StepFindings> Dynamics::step_findings() const {
+  if (!survey_) return std::nullopt;
+  return survey_->findings(stepper_.error_order(), assembler_.communicator());
+}
+
 void Dynamics::archive(Archive& archive) {
   archive.item("counts.steps", counts_.steps);
   archive.item("counts.rejected", counts_.rejected);
@@ -116,6 +136,7 @@ void Dynamics::archive(Archive& archive) {
   archive.item("counts.linear", counts_.linear);
   schedule_.archive(archive);
   if (control_) control_->archive(archive);
+  if (survey_) survey_->archive(archive);
   newton_.archive(archive);
   stepper_.archive(archive);
   assembler_.archive(archive);

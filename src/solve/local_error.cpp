@@ -58,19 +58,19 @@ double largest_jerk(const partition::LocalNetwork& network, const StepStart& sta
 
 /// a1 - a0 = (x1 - x0 - dt v0 - dt^2/2 a0) / (beta dt^2).  Where means are kept, 1/2 takes the place of beta.
 double LocalError::estimate(const AlphaStep& step, const partition::LocalNetwork& network, const StepStart& start,
-                            std::span<const double> growth, Vec x1) {
-  next_a_time_ = acceleration_time(step, a_time_);
-  between_ = step.dt + next_a_time_ - a_time_;
+                            std::span<const double> growth, Vec x1) const {
+  const double between = step.dt + acceleration_time(step, a_time_) - a_time_;
   const double constant = std::abs(step.beta + (step.alpha_f - step.alpha_m) / 2 - 1.0 / 6);
   const double beta = step.is_centred() ? 0.5 : step.beta;
-  const double span = growth.empty() ? between_ : between_ + grown_over_;
+  const double span = growth.empty() ? between : between + grown_over_;
   const double dt2 = step.dt * step.dt;
   return constant * dt2 * largest_jerk(network, start, growth, step.dt, longest_, 1 / (beta * dt2 * span), x1);
 }
 
-void LocalError::accept() {
-  a_time_ = next_a_time_;
-  grown_over_ = between_;
+void LocalError::accept(const AlphaStep& step) {
+  const double next = acceleration_time(step, a_time_);
+  grown_over_ = step.dt + next - a_time_;
+  a_time_ = next;
 }
 
 void LocalError::archive(Archive& archive) {

@@ -208,7 +208,7 @@ TEST(LocalError, TheEstimateIsTheTrueOne) {
                            a = vector_of(oscillator.start_kept), end = vector_of(oscillator.x);
       const double error =
           local_error.estimate(oscillator.alpha(), one_node, {x, v, a, a}, oscillator.start_growth, end);
-      local_error.accept();
+      local_error.accept(oscillator.alpha());
       EXPECT_GT(error, 0.5 * oscillator.true_error()) << item.name << ", step " << count;
       EXPECT_LT(error, 2 * oscillator.true_error()) << item.name << ", step " << count;
       ++count;

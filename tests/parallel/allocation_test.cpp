@@ -31,7 +31,9 @@ namespace {
 std::vector<long> allocations_per_step(const std::string& text, Scheme scheme) {
   const network::Network network = network_of(text);
   System system(network, {scheme, 0, elements::Tangent::exact}, PETSC_COMM_WORLD);
-  solve::Dynamics dynamics(system.assembler, {0, 0.02, 1e-3, scheme, 1, 0}, {1});
+  solve::Dynamics::Settings settings{1};
+  settings.takes_notes = true;
+  solve::Dynamics dynamics(system.assembler, {0, 0.02, 1e-3, scheme, 1, 0}, settings);
   std::vector<long> counts;
   counts.reserve(100);
   dynamics.run(

@@ -119,6 +119,7 @@ private:
     solve::Dynamics::Settings settings{scene_.output.interval, nullptr, 20};
     settings.keeps_accounts = true;
     settings.is_watched = false;
+    settings.takes_notes = true;
     dynamics_.emplace(system_.assembler, scene_.time, settings);
   }
 

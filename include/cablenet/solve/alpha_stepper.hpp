@@ -49,9 +49,11 @@ public:
   /// The user's -ts_adapt_type chooses the steps.
   bool user_adapts() const { return user_adapts_; }
 
-  /// `accepts` is told the local error [m] and the length [s] of each attempt.  Where it answers false the attempt is
-  /// refused, and the next one is `scale` times as long.
-  void control_errors(std::function<bool(double error, double dt)> accepts, double scale);
+  /// Estimates the local error of an attempt [m].  Collective.
+  using Error = std::function<double()>;
+  /// `accepts` is told the local error, for which it has to ask, and the length [s] of each attempt.  Where it answers
+  /// false the attempt is refused, and the next one is `scale` times as long.
+  void control_errors(std::function<bool(const Error&, double dt)> accepts, double scale);
   /// The next step starts with the acceleration a() instead of the one that TSALPHA2 keeps.
   void restart();
 
@@ -75,8 +77,6 @@ public:
   /// The weights and the length of the last attempt.
   const AlphaStep& step() const { return step_; }
   int error_order() const { return local_error_.order(); }
-  /// The local error of the last attempt [m].  @pre control_errors
-  double error() const { return error_; }
 
   /// x, v, a.  Saving restarts, so that this run and one that resumes from the archive go on alike.
   void archive(Archive& archive);
@@ -111,11 +111,11 @@ private:
   int attempts_ = 0, repeats_ = 0;      ///< at the running step; repeats did not shorten it
   double t_ = 0, dt_ = 0, taken_ = 0;   ///< of the running step [s], and the length of the last; 0: there was none
   long rejected_ = 0, newton_ = 0, linear_ = 0;   ///< so far
-  std::function<bool(double, double)> accepts_;
+  std::function<bool(const Error&, double)> accepts_;
   PetscReal failed_scale_ = 1;   ///< the length of the next attempt over one at which Newton's method failed
   MeanAcceleration mean_acceleration_;
   LocalError local_error_;
-  double error_ = 0, refused_scale_ = 1;
+  double refused_scale_ = 1;
 };
 
 }   // namespace cablenet::solve

@@ -9,6 +9,7 @@
 #include "cablenet/solve/observers.hpp"
 #include "cablenet/solve/schedule.hpp"
 #include "cablenet/solve/step_control.hpp"
+#include "cablenet/solve/step_survey.hpp"
 
 /// A run through time: a schedule, adaptive control, observers and the explanation of failures around a time stepper
 /// (alpha_stepper.hpp) and Newton's method (newton.hpp).
@@ -24,6 +25,7 @@ public:
     long most_steps = std::numeric_limits<int>::max();   ///< where -ts_max_steps is not given
     bool keeps_accounts = false;                         ///< of energy
     bool is_watched = true;                              ///< where the scheme may gain energy; accounts are kept then
+    bool takes_notes = false;                            ///< of tensions (Assembler::tensions) and steps
   };
 
   /// Reads the options database (-ts_*, -snes_*, -ksp_*, -pc_*, -mat_mumps_*, -cable_elimination_limit).
@@ -40,6 +42,9 @@ public:
   /// Where (on any rank) the failed attempt's residual was worst or undefined.
   FailedPart failed_part() { return newton_.failed_part(outside_body_); }
 
+  /// How well the steps so far have followed the motion.  Nothing where they are adaptive, or no notes are taken.
+  std::optional<StepFindings> step_findings() const;
+
   /// The run ended as its scheme brought energy in from nowhere.
   bool has_gained_energy() const { return has_gained_energy_; }
 
@@ -51,6 +56,7 @@ public:
   void archive(Archive& archive);
 
 private:
+  void take_notes();
   void start(const Observers& observers);
   bool step(double dt);
   void accept(double t, const AlphaStepper::Outcome& outcome);
@@ -65,6 +71,7 @@ private:
   AlphaStepper stepper_;
   Schedule schedule_;
   std::optional<StepControl> control_;   ///< of adaptive steps
+  std::optional<StepSurvey> survey_;     ///< of steps that are not
   Counts counts_;
   bool is_started_ = false;
   double last_step_ = 0;    ///< [s]

@@ -37,19 +37,17 @@ public:
   /// Of a step that leads from `start` to x1.  [m]  Collective.
   /// @param growth  of each unknown's kept acceleration in the step before [m/s^2]; empty where it is not to count
   double estimate(const AlphaStep& step, const partition::LocalNetwork& network, const StepStart& start,
-                  std::span<const double> growth, Vec x1);
+                  std::span<const double> growth, Vec x1) const;
   /// The power of the step's length that the estimate follows.
   int order() const { return longest_ > 0 ? 2 : 3; }
-  /// The step that was estimated last is taken.
-  void accept();
+  /// The step is taken, whether it was estimated or not.
+  void accept(const AlphaStep& step);
   void archive(Archive& archive);
 
 private:
-  double longest_;           ///< over which a step's error counts [s]
-  double a_time_ = 0;        ///< t_a0, counted from the step's start [s]
-  double next_a_time_ = 0;   ///< t_a1, counted from the step's end [s]
-  double between_ = 0;       ///< t_a1 - t_a0 [s]
-  double grown_over_ = 0;    ///< the same of the step before [s]
+  double longest_;          ///< over which a step's error counts [s]
+  double a_time_ = 0;       ///< t_a0, counted from the step's start [s]
+  double grown_over_ = 0;   ///< t_a1 - t_a0 of the step before [s]
 };
 
 }   // namespace cablenet::solve
