@@ -129,6 +129,7 @@ void write_report(const std::filesystem::path& path, const scene::Scene& scene, 
   yaml << YAML::Key << "scene_hash" << YAML::Value << scene_hash(scene);
   yaml << YAML::Key << "status" << YAML::Value << report.status;
   if (!report.message.empty()) yaml << YAML::Key << "message" << YAML::Value << report.message;
+  if (!report.notes.empty()) yaml << YAML::Key << "notes" << YAML::Value << report.notes;
   yaml << YAML::Key << "time_reached" << YAML::Value << fmt::format("{:.17g}", report.reached);
   yaml << YAML::Key << "ranks" << YAML::Value << partition.first_number.size() - 1;
   yaml << YAML::Key << "nodes" << YAML::Value << network.position.size();

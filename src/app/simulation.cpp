@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "cablenet/app/progress.hpp"
+#include "cablenet/app/run_notes.hpp"
 #include "cablenet/base/errors.hpp"
 #include "cablenet/network/build.hpp"
 #include "cablenet/output/frames.hpp"
@@ -80,6 +81,7 @@ private:
   void set_up_dynamics() {
     solve::Dynamics::Settings settings{scene_.output.interval};
     settings.keeps_accounts = scene_.output.energy;
+    settings.takes_notes = true;
     dynamics_.emplace(*assembler_, time_, settings);
     introduce(fmt::format("{}, {}", solve::describe(time_, rule_), dynamics_->linear_solver()));
   }
@@ -110,8 +112,7 @@ private:
     watch_.lap(equilibrium_);
     report_.statics = {frame_, statics_->imbalance(), statics_->largest_load(), statics_->iterations()};
     if (rank_ == 0 && found) fmt::print("{}\n", describe(*report_.statics));
-    if (rank_ == 0 && found && statics_->is_unstable())
-      fmt::print(stderr, "cablenet: note: the equilibrium is not stable: a disturbance would leave it\n");
+    if (found && statics_->is_unstable()) note("the equilibrium is not stable: a disturbance would leave it");
     return found;
   }
 
@@ -155,11 +156,19 @@ private:
       report_.energy.emplace(*energy, scene_);
       if (rank_ == 0) fmt::print("{}\n", describe(*report_.energy));
     }
+    for (const std::string& text : tension_notes(scene_, network_, *assembler_)) note(text);
+    if (const auto steps = dynamics_->step_findings())
+      for (const std::string& text : step_notes(*steps, report_.counts)) note(text);
     if (dynamics_->has_gained_energy())
       report_.message = fmt::format("at t = {:.9g} s {}", report_.reached, describe_gain(*report_.energy));
     else if (verdict == solve::Verdict::failed)
       report_.message = fmt::format("at t = {:.9g} s the solver could not go on {}", report_.reached, explanation());
     return conclude(verdict, verdict == solve::Verdict::failed ? advice() : "");
+  }
+
+  void note(const std::string& text) {
+    if (rank_ == 0) fmt::print(stderr, "cablenet: note: {}\n", text);
+    report_.notes.push_back(text);
   }
 
   void write(const solve::Instant& instant) {

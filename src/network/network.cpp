@@ -8,10 +8,14 @@
 
 namespace cablenet::network {
 
-std::string Network::element_name(int element) const {
+std::size_t Network::span_at(int element) const {
   const auto after = std::upper_bound(spans.begin(), spans.end(), element,
                                       [](int e, const Span& span) { return e < span.first_element; });
-  const Span& span = *(after - 1);
+  return static_cast<std::size_t>(after - spans.begin()) - 1;
+}
+
+std::string Network::element_name(int element) const {
+  const Span& span = spans[span_at(element)];
   return fmt::format("{}, element {} of {}", span.name, element - span.first_element + 1, span.elements);
 }
 

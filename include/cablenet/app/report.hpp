@@ -17,9 +17,10 @@
 namespace cablenet::app {
 
 struct Report {
-  std::string status;    ///< finished | stopped | failed
-  std::string message;   ///< why, if not finished
-  double reached = 0;    ///< simulated time [s]
+  std::string status;               ///< finished | stopped | failed
+  std::string message;              ///< why, if not finished
+  std::vector<std::string> notes;   ///< said of the equilibrium and of the run
+  double reached = 0;               ///< simulated time [s]
   std::string scheme;
   std::string linear_solver;
   solve::Counts counts;

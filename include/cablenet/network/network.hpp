@@ -95,6 +95,8 @@ struct Network {
   std::int64_t unknowns() const;
   /// The diagonal of the smallest box, with sides along the axes, that holds all nodes as drawn.  [m]
   double extent() const;
+  /// An index into `spans`: the cable or the net of an element.
+  std::size_t span_at(int element) const;
   /// Names an element in messages: "trunk, element 3 of 24".
   std::string element_name(int element) const;
 };
