@@ -7,7 +7,8 @@
 /// Tests: tests/parallel/adaptive_test.cpp
 namespace cablenet::solve {
 
-/// The step is halved and doubled, never changed a little: a tangent can be kept as long as the step stays.
+/// The step is halved, doubled and made four times as long, never changed a little: a tangent can be kept as long as
+/// the step stays.  It grows to what goes 1, 2, 4 or 8 times into the longest step.
 class StepControl {
 public:
   /// The length of the next attempt over that of one whose error was too large.
@@ -34,11 +35,14 @@ public:
   void archive(Archive& archive);
 
 private:
+  double fitting(double most) const;
+  double longer() const;
+
   double tolerance_, limit_, longest_, shortest_;
   int order_;
   double error_ = 0, dt_ = 0;                   ///< of the last attempt
   double refused_error_ = 0, refused_dt_ = 0;   ///< of the last attempt that was refused
-  int growing_ = 0;                             ///< steps in a row that could have been doubled
+  int growing_ = 0;                             ///< steps in a row that could have grown
 };
 
 }   // namespace cablenet::solve
