@@ -1,6 +1,9 @@
 #include "bodies.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "cablenet/base/index.hpp"
 #include "cablenet/bodies/rigid_body.hpp"
@@ -28,6 +31,13 @@ SceneNode add_node(Network& network, const Vector3& position, const Vector3& vel
   return network.position.push_back(position);
 }
 
+double reach_of(const scene::Body& body, const Matrix3& inertia) {
+  const Eigen::SelfAdjointEigenSolver<Matrix3> about_axes(inertia, Eigen::EigenvaluesOnly);
+  double reach = std::sqrt(about_axes.eigenvalues().maxCoeff() / body.mass);
+  for (const scene::Attachment& attachment : body.attachments) reach = std::max(reach, attachment.offset.norm());
+  return reach;
+}
+
 Body make_body(const scene::Body& body, Network& network) {
   const bodies::Rotation rotation = rotation_of(body);
   const SceneNode node = add_node(network, body.position, body.velocity);
@@ -39,7 +49,8 @@ Body make_body(const scene::Body& body, Network& network) {
           bodies::rotation_state(rotation, body.attitude, body.angular_velocity),
           std::nullopt,
           static_cast<int>(network.carried.size()),
-          0};
+          0,
+          reach_of(body, inertia)};
 }
 
 SceneNode add_carried(const scene::Body& from, const Vector3& offset, Body& body, Network& network) {

@@ -190,7 +190,8 @@ private:
   void add_body(int index, LocalNode node, const std::unordered_set<SceneNode>& touched) {
     const network::Body& body = network_.bodies[at(index)];
     const bool own = here_.is_owned(node);
-    LocalBody local{node, index, body.properties, body.start, body.water, static_cast<int>(here_.carried.size()), 0};
+    const int first_carried = static_cast<int>(here_.carried.size());
+    LocalBody local{node, index, body.properties, body.start, body.water, first_carried, 0, body.reach};
     for (int k = body.first_carried; k < body.first_carried + body.carried; ++k) {
       const network::CarriedNode& carried = network_.carried[at(k)];
       if (!own && !touched.contains(carried.node)) continue;

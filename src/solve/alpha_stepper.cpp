@@ -5,6 +5,7 @@
 
 #include "cablenet/petsc/options.hpp"
 #include "cablenet/solve/scheme.hpp"
+#include "vector_archive.hpp"
 
 namespace cablenet::solve {
 namespace {
@@ -22,20 +23,17 @@ double memory_of(const partition::LocalNetwork& network, const scene::Time& time
   return forgets ? 0 : part * (time.end - time.start);
 }
 
+/// Where the stage is the step's middle.
+bool conserves_bodies(const system::Assembler& assembler) {
+  const system::Stage middle{0, 1, 0.5};
+  return assembler.rule().conserves(middle, assembler.network().surroundings.fluid.has_value());
+}
+
 /// So many attempts are made before a step is shortened.
 constexpr int most_of_a_length = 3;
 
 /// So many halvings bring an adaptive step below any that is of use.
 constexpr PetscInt most_rejections = 40;
-
-void archive_vector(Archive& archive, const char* name, Vec vector) {
-  PetscInt size = 0;
-  double* values = nullptr;
-  check(VecGetLocalSize(vector, &size));
-  check(VecGetArray(vector, &values));
-  archive.item(name, std::span(values, static_cast<std::size_t>(size)));
-  check(VecRestoreArray(vector, &values));
-}
 
 /// PETSc takes -ts_alpha_radius for Chung and Hulbert's weights, whatever the scheme.
 void keep_weights(TS stepper, const scene::Time& time, const char* prefix) {
@@ -50,7 +48,10 @@ void keep_weights(TS stepper, const scene::Time& time, const char* prefix) {
 
 AlphaStepper::AlphaStepper(const system::Assembler& assembler, StageEquations& equations, const scene::Time& time,
                            long most_steps, const char* prefix)
-    : network_(assembler.network()), equations_(equations), local_error_(memory_of(assembler.network(), time)) {
+    : network_(assembler.network()),
+      equations_(equations),
+      local_error_(memory_of(assembler.network(), time), conserves_bodies(assembler),
+                   assembler.rule().axial_dissipation) {
   for (auto* vector : {&x_, &v_, &a_, &x0_, &v0_, &start_acceleration_, &own_a_, &expected_a_})
     *vector = assembler.make_vector();
   assembler.fill_initial(x_, v_);

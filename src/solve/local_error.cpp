@@ -4,78 +4,158 @@
 #include <cmath>
 
 #include "cablenet/base/linear_algebra.hpp"
+#include "cablenet/bodies/rigid_body.hpp"
 #include "cablenet/petsc/values.hpp"
 
 namespace cablenet::solve {
+
+using bodies::Rotation, bodies::Vector4;
+
+/// A step to be estimated, with its vectors open.
+struct OpenStep {
+  const AlphaStep& step;
+  const partition::LocalNetwork& network;
+  JerkWeights weights;
+  std::span<const double> growth;
+  petsc::ReadValues x0, v0, a0, x1;
+
+  /// Of n unknowns.
+  template <int n>
+  Curve<Eigen::Matrix<double, n, 1>> curve(int first) const {
+    using Values = Eigen::Matrix<double, n, 1>;
+    const auto at = [first](const double* values) { return Eigen::Map<const Values>(values + first); };
+    const Values way = at(x1) - at(x0) - step.dt * at(v0), now = at(a0);
+    return {weights, way, at(v0), now, growth.empty() ? now : now - at(growth.data())};
+  }
+};
+
 namespace {
 
-using petsc::check;
-
-/// The time at which the true motion has the acceleration that is kept after the step, counted from the step's end [s].
-/// A mean belongs to the step's middle.  Otherwise it follows from the stage: there the method balances forces, so that
-/// the true motion has the acceleration (1 - alpha_m) a0 + alpha_m a1.
-/// @param before  likewise of a0, counted from the step's start [s]
-double acceleration_time(const AlphaStep& step, double before) {
-  if (step.is_centred()) return -step.dt / 2;
-  return (step.alpha_f * step.dt - (1 - step.alpha_m) * before) / step.alpha_m - step.dt;
-}
-
 /// Radians of a motion over which the errors of its steps add up.
-constexpr double memory = 2;
+constexpr double memory = 3;
 
-/// |x'''| times the time over which a step's error counts [m/s^2]: that in which the motion turns by `memory`, at most
-/// `longest`, at least the step.  A radian takes |x''|/|x'''| or sqrt(|x'|/|x'''|), the shorter one: the first is right
-/// in a uniform motion, the second in a uniform acceleration.
-double weighed_jerk(double dt, double longest, const Vector3& v, const Vector3& a, const Vector3& jerk) {
-  const double third = jerk.norm(), over_radian = memory * std::min(a.norm(), std::sqrt(third * v.norm()));
-  return std::max(dt * third, std::min(over_radian, longest * third));
-}
+/// The error of a step over dt^3 x'''.
+double constant_of(const AlphaStep& step) { return std::abs(step.beta + (step.alpha_f - step.alpha_m) / 2 - 1.0 / 6); }
+constexpr double conserving_constant = 1.0 / 12;
 
-/// Of all nodes, the largest.  @param per_correction  x''' over the correction of x0 + dt v0 + dt^2/2 a0 [1/s^3]
-double largest_jerk(const partition::LocalNetwork& network, const StepStart& start, std::span<const double> growth,
-                    double dt, double longest, double per_correction, Vec x1) {
-  const petsc::ReadValues end(x1), x(start.x), v(start.v), a(start.a);
-  double largest = 0;
-  for (LocalNode node(0); network.is_owned(node); ++node) {
-    const auto of_node = [begin = network.begin[node].value()](const double* values) {
-      return Eigen::Map<const Vector3>(values + begin);
-    };
-    Vector3 correction = of_node(end) - of_node(x) - dt * of_node(v) - dt * dt / 2 * of_node(a);
-    Vector3 smooth = of_node(a);
-    if (!growth.empty()) {
-      correction += dt * dt / 2 * of_node(growth.data());
-      smooth -= 0.5 * of_node(growth.data());
-    }
-    largest = std::max(largest, weighed_jerk(dt, longest, of_node(v), smooth, per_correction * correction));
-  }
-  MPI_Comm communicator = MPI_COMM_NULL;
-  check(PetscObjectGetComm(reinterpret_cast<PetscObject>(x1), &communicator));
-  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, communicator);
-  return largest;
+Vector4 four(const Vector3& of) { return {of(0), of(1), of(2), 0}; }
+
+/// Of the attitude's unknowns.  Components that a body does not have are zero.
+Curve<Vector4> attitude_curve(const OpenStep& open, Rotation rotation, int first) {
+  if (rotation == Rotation::quaternion) return open.curve<4>(first);
+  const Curve<Vector3> angles = open.curve<3>(first);
+  return {four(angles.v), four(angles.a), four(angles.jerk)};
 }
 
 }   // namespace
 
-/// a1 - a0 = (x1 - x0 - dt v0 - dt^2/2 a0) / (beta dt^2).  Where means are kept, 1/2 takes the place of beta.
+/// An error counts over the time in which the motion turns by `memory`, at most `longest_`, at least the step.  A
+/// radian takes sqrt(|v|/|x'''|), v the part of x' along x''': what moves steadily across it is no part of the turn.
+/// @returns |x'''| times that time, in units of x''
+double LocalError::weighed(const Vector3& v, const Vector3& jerk, double dt) const {
+  const double size = jerk.norm(), over_memory = memory * std::sqrt(std::abs(v.dot(jerk)));
+  return std::max(dt * size, std::min(over_memory, longest_ * size));
+}
+
+/// A rope that is caught loses up to xi EA/L (l1 - l0)^2 to the axial dissipation, and so does one that goes slack.
+/// The speed lacks that for good: xi dt^2 |x'''|.
+double LocalError::of_nodes(const OpenStep& open) const {
+  const double constant = constant_of(open.step), lasting = axial_dissipation_ * longest_;
+  double largest = 0;
+  for (LocalNode node(0); open.network.is_owned(node); ++node) {
+    const Curve<Vector3> path = open.curve<3>(open.network.begin[node].value());
+    largest = std::max(largest, constant * weighed(path.v, path.jerk, open.step.dt));
+    if (can_slacken_[node]) largest = std::max(largest, lasting * path.jerk.norm());
+  }
+  return largest;
+}
+
+/// Where the equations hold at the stage, the attitude's unknowns err as a node does.
+double LocalError::of_attitude(const OpenStep& open, Rotation rotation, int first, const Vector4& y0) const {
+  const auto turn = [&](const Vector4& change) { return bodies::angular_velocity(rotation, {y0, change, {}}); };
+  const Curve<Vector4> curve = attitude_curve(open, rotation, first);
+  return constant_of(open.step) * weighed(turn(curve.v), turn(curve.jerk), open.step.dt);
+}
+
+/// Of a conserving step.  The rotation vector dt (w0 + w1)/2 stands in the place of a node's way.
+double LocalError::of_turn(const OpenStep& open, std::size_t body, const bodies::Start& start, const Vector3& start_dw,
+                           const Vector4& y1) {
+  const double dt = open.step.dt;
+  const auto of_body = [body](std::vector<double>& values) { return Eigen::Map<Vector3>(values.data() + 3 * body); };
+  const Vector3 w1 = bodies::end_by_turn(start, dt, y1), mean = 0.5 * (start.w + w1);
+  if (kept_.last == 0) of_body(turns_) = start_dw;
+  of_body(next_turns_) = (w1 - start.w) / dt;
+  const Vector3 way = dt * (mean - start.w), now = of_body(turns_), before = of_body(turns_before_);
+  const Curve<Vector3> turning(open.weights, way, mean, now, before);
+  return conserving_constant * weighed(mean, turning.jerk - mean.cross(turning.a), dt);
+}
+
+double LocalError::of_bodies(const OpenStep& open) {
+  const bool conserves = conserves_ && open.step.alpha_f == 0.5;
+  double largest = 0;
+  for (int b = 0; b < open.network.own_bodies; ++b) {
+    const partition::LocalBody& body = open.network.bodies[at(b)];
+    const Rotation rotation = body.properties.rotation;
+    if (rotation == Rotation::none) continue;
+    const int first = open.network.begin[body.node].value() + 3, unknowns = bodies::rotation_unknowns(rotation);
+    const auto read = [first, unknowns](const double* values) {
+      Vector4 result = Vector4::Zero();
+      std::copy_n(values + first, unknowns, result.data());
+      return result;
+    };
+    const bodies::Start start = bodies::start_of(body.properties, read(open.x0), read(open.v0));
+    const Vector3 start_dw = bodies::angular_velocity(rotation, {start.y, read(open.a0), {}});
+    const bool turns = conserves && rotation == Rotation::quaternion;
+    const double angle =
+        turns ? of_turn(open, at(b), start, start_dw, read(open.x1)) : of_attitude(open, rotation, first, start.y);
+    if (!turns || unknown_turns_ == 0) largest = std::max(largest, body.reach * angle);
+  }
+  return largest;
+}
+
+/// The nodes at which ropes that can go slack end.
+void LocalError::find_slack(const partition::LocalNetwork& network) {
+  can_slacken_ = Table<LocalNode, bool>(network.owned, false);
+  for (const partition::LocalElement& element : network.elements)
+    for (const LocalNode end : element.node)
+      if (const LocalNode node = network.anchor(end); network.is_owned(node))
+        can_slacken_[node] = can_slacken_[node] || network.materials[at(element.material)].tension_only;
+}
+
 double LocalError::estimate(const AlphaStep& step, const partition::LocalNetwork& network, const StepStart& start,
-                            std::span<const double> growth, Vec x1) const {
-  const double between = step.dt + acceleration_time(step, a_time_) - a_time_;
-  const double constant = std::abs(step.beta + (step.alpha_f - step.alpha_m) / 2 - 1.0 / 6);
-  const double beta = step.is_centred() ? 0.5 : step.beta;
-  const double span = growth.empty() ? between : between + grown_over_;
-  const double dt2 = step.dt * step.dt;
-  return constant * dt2 * largest_jerk(network, start, growth, step.dt, longest_, 1 / (beta * dt2 * span), x1);
+                            std::span<const double> growth, Vec x1) {
+  is_estimated_ = true;
+  if (can_slacken_.empty()) find_slack(network);
+  for (auto* turns : {&turns_, &turns_before_, &next_turns_}) turns->resize(3 * at(network.own_bodies));
+  const JerkWeights weights(step, kept_, !growth.empty());
+  const OpenStep open{step,
+                      network,
+                      weights,
+                      growth,
+                      petsc::ReadValues(start.x),
+                      petsc::ReadValues(start.v),
+                      petsc::ReadValues(start.a),
+                      petsc::ReadValues(x1)};
+  double largest = step.dt * step.dt * std::max(of_nodes(open), of_bodies(open));
+  MPI_Comm communicator = MPI_COMM_NULL;
+  petsc::check(PetscObjectGetComm(reinterpret_cast<PetscObject>(x1), &communicator));
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, communicator);
+  return largest;
 }
 
 void LocalError::accept(const AlphaStep& step) {
-  const double next = acceleration_time(step, a_time_);
-  grown_over_ = step.dt + next - a_time_;
-  a_time_ = next;
+  kept_ = kept_.after(step);
+  unknown_turns_ = is_estimated_ ? std::max(unknown_turns_ - 1, 0) : 2;
+  is_estimated_ = false;
+  turns_before_.swap(turns_);
+  turns_.swap(next_turns_);
 }
 
 void LocalError::archive(Archive& archive) {
-  archive.item("local_error.a_time", a_time_);
-  archive.item("local_error.grown_over", grown_over_);
+  kept_.archive(archive);
+  archive.item("local_error.unknown_turns", unknown_turns_);
+  archive.item("local_error.turns", turns_);
+  archive.item("local_error.turns_before", turns_before_);
 }
 
 }   // namespace cablenet::solve

@@ -26,10 +26,11 @@ public:
   const network::Network& network() const { return system_.network; }
 
   solve::Verdict verdict;
-  Field x, v, a;                  ///< at the last output
-  std::vector<double> outputs;    ///< times
-  std::vector<double> steps;      ///< lengths
-  std::vector<double> energies;   ///< total at outputs
+  Field x, v, a;                           ///< at the last output
+  std::vector<system::BodyState> bodies;   ///< of this rank, at the last output
+  std::vector<double> outputs;             ///< times
+  std::vector<double> steps;               ///< lengths
+  std::vector<double> energies;            ///< total at outputs
 
 private:
   void observe(const solve::Instant& instant) {
@@ -39,7 +40,7 @@ private:
     x = system_.field(instant.x);
     v = system_.field(instant.v);
     a = system_.field(instant.a);
-    system_.assembler.observe(instant.t, instant.x, instant.v, instant.a);
+    bodies = system_.assembler.observe(instant.t, instant.x, instant.v, instant.a).bodies;
     energies.push_back(sum_over_ranks(system_.assembler.energies().total(), system_.assembler.communicator()));
   }
   void note(double t, double dt) {

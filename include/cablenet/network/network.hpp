@@ -46,6 +46,8 @@ struct Body {
   std::optional<bodies::BodyInWater> water;   ///< none where the scene has no fluid
   int first_carried = 0;   ///< Network::carried has its nodes: [first_carried, first_carried + carried)
   int carried = 0;
+  /// The largest distance of an attachment from the centre of gravity, or the largest radius of gyration.  [m]
+  double reach = 0;
 };
 
 /// A node that moves with a body and has no unknowns of its own: an attachment, or the centre of buoyancy.

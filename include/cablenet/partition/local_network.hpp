@@ -27,6 +27,7 @@ struct LocalBody {
   bodies::RotationState start;
   std::optional<bodies::BodyInWater> water;
   int first_carried, carried;   ///< its nodes here: [first_carried, first_carried + carried) of LocalNetwork::carried
+  double reach;                 ///< as of network::Body [m]
 };
 
 struct LocalCarried {

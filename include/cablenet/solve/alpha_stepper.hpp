@@ -99,9 +99,8 @@ private:
   const partition::LocalNetwork& network_;
   StageEquations& equations_;
   system::Vector x_, v_, a_;
-  system::Vector expected_a_, own_a_;   ///< of StepStart, where they are needed
-  system::Vector x0_, v0_;              ///< at the step's start
-  system::Vector start_acceleration_;
+  system::Vector expected_a_, own_a_;             ///< of StepStart, where they are needed
+  system::Vector x0_, v0_, start_acceleration_;   ///< at the step's start
   TimeStepper stepper_;
   SNES snes_ = nullptr;   ///< the stepper's
   TSAdapt adapt_ = nullptr;

@@ -2,10 +2,16 @@
 #include <petscvec.h>
 
 #include <span>
+#include <vector>
 
 #include "cablenet/base/archive.hpp"
+#include "cablenet/bodies/body_data.hpp"
 #include "cablenet/partition/local_network.hpp"
-#include "cablenet/solve/alpha_step.hpp"
+#include "cablenet/solve/jerk.hpp"
+
+namespace cablenet::bodies {
+struct Start;
+}
 
 namespace cablenet::solve {
 
@@ -18,26 +24,33 @@ struct StepStart {
   Vec own_a;        ///< the method's own acceleration, where it is centred and x1 depends on it; else null [m/s^2]
 };
 
-/// The local error of a step: the distance by which this step alone leads a node astray.
-///   error = |beta + (alpha_f - alpha_m)/2 - 1/6| dt^3 |x'''|,   x''' = (a1 - a0)/(t_a1 - t_a0)
-/// a0 and a1 are the accelerations that are kept before and after the step.  t_a0 and t_a1 are the times at which the
-/// true motion has them.  A centred method takes the one before a0 instead of a0: what vibrates too fast for the step
-/// alternates in them, and leaves no node astray.  The largest error of any node counts; attitudes of bodies do not.
+struct OpenStep;
+
+/// The local error of a step: the distance by which this step alone leads a node or a body's attachments astray.
+///   error of a node = |beta + (alpha_f - alpha_m)/2 - 1/6| dt^3 |x'''|
+///   error of a body = L dt^3 |w'' - w x w'|/12   after a conserving step (rigid_body.hpp)
+///                   = L |rates e|                otherwise.  e, of its attitude's unknowns, has the formula of nodes.
+/// L is LocalBody::reach.  The largest error of any node and body counts.
+///
+/// x''' and w'' follow from the accelerations that are kept of this step and of those before (jerk.hpp).
 ///
 /// Where there is no water the errors of steps add up, period by period.  So each counts over the time in which the
-/// motion turns by 2 rad.  The tolerance then bounds the error of a period, within ten times its value, and not that of
+/// motion turns by 3 rad.  The tolerance then bounds the error of a period, within ten times its value, and not that of
 /// a step.  Where there is water its drag ends what an error has begun.
 ///
-/// Tests: tests/parallel/adaptive_test.cpp
+/// Tests: tests/parallel/adaptive_test.cpp, tests/verification/adaptive.py
 class LocalError {
 public:
-  /// @param longest  over which a step's error can count; 0: each counts by itself [s]
-  explicit LocalError(double longest = 0) : longest_(longest) {}
+  /// @param longest            over which a step's error can count; 0: each counts by itself [s]
+  /// @param conserves          bodies with quaternions take conserving steps where the stage is the step's middle
+  /// @param axial_dissipation  xi of energy_momentum
+  explicit LocalError(double longest = 0, bool conserves = false, double axial_dissipation = 0)
+      : longest_(longest), conserves_(conserves), axial_dissipation_(axial_dissipation) {}
 
   /// Of a step that leads from `start` to x1.  [m]  Collective.
   /// @param growth  of each unknown's kept acceleration in the step before [m/s^2]; empty where it is not to count
   double estimate(const AlphaStep& step, const partition::LocalNetwork& network, const StepStart& start,
-                  std::span<const double> growth, Vec x1) const;
+                  std::span<const double> growth, Vec x1);
   /// The power of the step's length that the estimate follows.
   int order() const { return longest_ > 0 ? 2 : 3; }
   /// The step is taken, whether it was estimated or not.
@@ -45,9 +58,24 @@ public:
   void archive(Archive& archive);
 
 private:
-  double longest_;          ///< over which a step's error counts [s]
-  double a_time_ = 0;       ///< t_a0, counted from the step's start [s]
-  double grown_over_ = 0;   ///< t_a1 - t_a0 of the step before [s]
+  void find_slack(const partition::LocalNetwork& network);
+  double weighed(const Vector3& v, const Vector3& jerk, double dt) const;
+  double of_nodes(const OpenStep& open) const;
+  double of_bodies(const OpenStep& open);
+  double of_attitude(const OpenStep& open, bodies::Rotation rotation, int first, const bodies::Vector4& y0) const;
+  double of_turn(const OpenStep& open, std::size_t body, const bodies::Start& start, const Vector3& start_dw,
+                 const bodies::Vector4& y1);
+
+  double longest_;   ///< over which a step's error counts [s]
+  bool conserves_;
+  double axial_dissipation_;
+  Table<LocalNode, bool> can_slacken_;   ///< of owned nodes
+  KeptSteps kept_;
+  /// Of bodies after conserving steps, three of each: the means of w' in the last step, in the one before it, and in
+  /// the one that was estimated last.  [rad/s^2]
+  std::vector<double> turns_, turns_before_, next_turns_;
+  bool is_estimated_ = false;   ///< the running step
+  int unknown_turns_ = 0;       ///< Conserving bodies count when so many more steps in a row have been estimated.
 };
 
 }   // namespace cablenet::solve
