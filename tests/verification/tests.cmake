@@ -3,6 +3,7 @@ cablenet_script_test(verification_conical_pendulum verification/conical_pendulum
 cablenet_script_test(verification_stiff_pendulum verification/stiff_pendulum.py 300 verification)
 cablenet_script_test(verification_second_order verification/second_order.py 300 verification)
 cablenet_script_test(verification_hard_scenes verification/hard_scenes.py 120 verification)
+cablenet_script_test(verification_adaptive verification/adaptive.py 300 verification)
 cablenet_script_test(verification_frequencies verification/frequencies.py 120 verification)
 cablenet_script_test(verification_moving_points verification/moving_points.py 120 verification)
 cablenet_script_test(verification_manoeuvres verification/manoeuvres.py 120 verification)
