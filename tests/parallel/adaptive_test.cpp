@@ -292,7 +292,7 @@ double estimated(const std::vector<double>& lengths, const OfSteps& motion) {
     const double next_v = velocity(t + dt), next_x = x + dt * (v + next_v) / 2;
     const system::Vector at_x = vector_of(x), at_v = vector_of(v), at_a = vector_of(kept), end = vector_of(next_x);
     result = local_error.estimate({centred, dt}, one_node, {at_x, at_v, at_a, at_a}, growth, end);
-    local_error.accept();
+    local_error.accept({centred, dt});
     const double mean = (next_v - v) / dt;
     growth = {mean - kept, 0, 0};
     kept = mean, x = next_x, t += dt;

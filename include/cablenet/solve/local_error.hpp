@@ -17,11 +17,11 @@ namespace cablenet::solve {
 
 /// The start of a step.
 struct StepStart {
-  Vec x;            ///< [m]
-  Vec v;            ///< [m/s]
-  Vec a;            ///< the acceleration that is kept: as AlphaStepper::a() [m/s^2]
-  Vec expected_a;   ///< a guess of the step's mean acceleration, by those of the steps before [m/s^2]
-  Vec own_a;        ///< the method's own acceleration, where it is centred and x1 depends on it; else null [m/s^2]
+  Vec x;                 ///< [m]
+  Vec v;                 ///< [m/s]
+  Vec a;                 ///< the acceleration that is kept: as AlphaStepper::a() [m/s^2]
+  Vec expected_a;        ///< a guess of the step's mean acceleration, by those of the steps before [m/s^2]
+  Vec own_a = nullptr;   ///< the method's own acceleration, where it is centred and x1 depends on it; else null [m/s^2]
 };
 
 struct OpenStep;
