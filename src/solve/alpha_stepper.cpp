@@ -55,6 +55,7 @@ AlphaStepper::AlphaStepper(const system::Assembler& assembler, StageEquations& e
   for (auto* vector : {&x_, &v_, &a_, &x0_, &v0_, &start_acceleration_, &own_a_, &expected_a_})
     *vector = assembler.make_vector();
   assembler.fill_initial(x_, v_);
+  local_error_.prepare(network_);
   check(TSCreate(assembler.communicator(), stepper_.out()));
   configure(time, most_steps, prefix);
   check(TSGetSNES(stepper_, &snes_));

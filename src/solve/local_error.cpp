@@ -113,8 +113,9 @@ double LocalError::of_bodies(const OpenStep& open) {
   return largest;
 }
 
-/// The nodes at which ropes that can go slack end.
-void LocalError::find_slack(const partition::LocalNetwork& network) {
+/// Finds the nodes at which ropes that can go slack end.
+void LocalError::prepare(const partition::LocalNetwork& network) {
+  for (auto* turns : {&turns_, &turns_before_, &next_turns_}) turns->assign(3 * at(network.own_bodies), 0);
   can_slacken_ = Table<LocalNode, bool>(network.owned, false);
   for (const partition::LocalElement& element : network.elements)
     for (const LocalNode end : element.node)
@@ -125,8 +126,7 @@ void LocalError::find_slack(const partition::LocalNetwork& network) {
 double LocalError::estimate(const AlphaStep& step, const partition::LocalNetwork& network, const StepStart& start,
                             std::span<const double> growth, Vec x1) {
   is_estimated_ = true;
-  if (can_slacken_.empty()) find_slack(network);
-  for (auto* turns : {&turns_, &turns_before_, &next_turns_}) turns->resize(3 * at(network.own_bodies));
+  if (can_slacken_.empty()) prepare(network);
   const JerkWeights weights(step, kept_, !growth.empty());
   const OpenStep open{step,
                       network,
@@ -146,6 +146,7 @@ double LocalError::estimate(const AlphaStep& step, const partition::LocalNetwork
 void LocalError::accept(const AlphaStep& step) {
   kept_ = kept_.after(step);
   unknown_turns_ = is_estimated_ ? std::max(unknown_turns_ - 1, 0) : 2;
+  if (!is_estimated_) return;
   is_estimated_ = false;
   turns_before_.swap(turns_);
   turns_.swap(next_turns_);

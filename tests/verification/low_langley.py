@@ -41,7 +41,7 @@ def through_time(case, elements, step):
     else:
         span, keys = (-27, 80), {"top": {"expression": {what: DRIVEN}}, "fluid": {"surface": 0} if case == "heave" else {}}
     # The riser's own axial vibration is not damped by anything else, and no curve has it.
-    steps = {"step": step, "spectral_radius": 0.5}
+    steps = {"step": step, "spectral_radius": 0.4}
     return riser(elements, **keys, initial="static", time={"start": span[0], "end": span[1], **steps})
 
 

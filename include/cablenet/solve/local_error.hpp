@@ -47,6 +47,8 @@ public:
   explicit LocalError(double longest = 0, bool conserves = false, double axial_dissipation = 0)
       : longest_(longest), conserves_(conserves), axial_dissipation_(axial_dissipation) {}
 
+  /// Allocates what it keeps of the network.  The first estimate does it otherwise.
+  void prepare(const partition::LocalNetwork& network);
   /// Of a step that leads from `start` to x1.  [m]  Collective.
   /// @param growth  of each unknown's kept acceleration in the step before [m/s^2]; empty where it is not to count
   double estimate(const AlphaStep& step, const partition::LocalNetwork& network, const StepStart& start,
@@ -58,7 +60,6 @@ public:
   void archive(Archive& archive);
 
 private:
-  void find_slack(const partition::LocalNetwork& network);
   double weighed(const Vector3& v, const Vector3& jerk, double dt) const;
   double of_nodes(const OpenStep& open) const;
   double of_bodies(const OpenStep& open);
