@@ -31,9 +31,6 @@ struct OpenStep {
 
 namespace {
 
-/// Radians of a motion over which the errors of its steps add up.
-constexpr double memory = 3;
-
 /// The error of a step over dt^3 x'''.
 double constant_of(const AlphaStep& step) { return std::abs(step.beta + (step.alpha_f - step.alpha_m) / 2 - 1.0 / 6); }
 constexpr double conserving_constant = 1.0 / 12;

@@ -5,12 +5,13 @@
 #include <numbers>
 
 #include "cablenet/petsc/values.hpp"
+#include "cablenet/solve/local_error.hpp"
 
 namespace cablenet::solve {
 
 double StepFindings::share() const {
   if (motion <= 0) return 0;
-  return (adds_up() ? std::numbers::pi : 1) * error / motion;
+  return (adds_up() ? 2 * std::numbers::pi / LocalError::memory : 1) * error / motion;
 }
 
 double StepFindings::step_for(double wanted) const { return step * std::pow(wanted / share(), 1.0 / order); }

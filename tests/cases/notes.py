@@ -87,7 +87,7 @@ def folding(given):
 def peaks(given):
     only(given, NOTED / "fall.yaml", [], ranks=(1,))
     [[newtons]] = only(given, NOTED / "fall.yaml",
-                       [r"^the largest tension of cable rope, (\S+ kN) at t = 2.8 s, lasted one step: it depends on the step"],
+                       [r"^the largest tension of cable rope, (\S+ kN) at t = 2\.9 s, lasted one step: it depends on the step"],
                        "-ts_dt", "0.1")
     expect(1e3 < number(newtons) < 5e3, f"a peak of {newtons}")
 
@@ -115,7 +115,8 @@ def long_steps(given):
         expect(any(note.startswith(PERIODS) for note in said), f"the tripod's steps are too long on {ranks} ranks: {said}")
     water = "^the steps do not resolve this motion: each by itself they lead it astray"
     only(given, NOTED / "waves.yaml", ["^cable line pushed"], ranks=(1,))
-    only(given, NOTED / "waves.yaml", ["^cable line pushed", "lasted one step", water], "-ts_dt", "0.8")
+    # On two ranks rounding has one of these steps rejected, and the shorter ones push less.
+    only(given, NOTED / "waves.yaml", ["^cable line pushed", "lasted one step", water], "-ts_dt", "0.8", ranks=(1, 3))
 
 
 def rejected(given):

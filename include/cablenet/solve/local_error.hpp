@@ -35,12 +35,15 @@ struct OpenStep;
 /// x''' and w'' follow from the accelerations that are kept of this step and of those before (jerk.hpp).
 ///
 /// Where there is no water the errors of steps add up, period by period.  So each counts over the time in which the
-/// motion turns by 3 rad.  The tolerance then bounds the error of a period, within ten times its value, and not that of
-/// a step.  Where there is water its drag ends what an error has begun.
+/// motion turns by `memory`.  The tolerance then bounds the error of a period, within ten times its value, and not that
+/// of a step.  Where there is water its drag ends what an error has begun.
 ///
 /// Tests: tests/parallel/adaptive_test.cpp, tests/verification/adaptive.py
 class LocalError {
 public:
+  /// Over which errors add up [rad].
+  static constexpr double memory = 3;
+
   /// @param longest            over which a step's error can count; 0: each counts by itself [s]
   /// @param conserves          bodies with quaternions take conserving steps where the stage is the step's middle
   /// @param axial_dissipation  xi of energy_momentum

@@ -16,7 +16,7 @@ struct StepFindings {
   double shortest;   ///< of all steps [s]
   int order;         ///< the power of the step's length that the error follows
 
-  /// An order of 2 says that errors add up: that of a step counts over 2 rad of the motion.
+  /// An order of 2 says that errors add up: that of a step counts over LocalError::memory.
   bool adds_up() const { return order == 2; }
   /// Of a period where errors add up, else of a step, over the motion.
   double share() const;
