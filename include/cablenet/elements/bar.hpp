@@ -25,8 +25,8 @@ BarForce bar_force(const Bar&, const Vector3& d);
 /// Of a step from d0 to d1, with its derivative by d1: f = k (1/2 - L/(l0 + l1)) (d0 + d1).  Then f . (d1 - d0) is the
 /// change of energy, and f points along the mean chord, so that angular momentum stays.
 BarForce bar_step_force(const Bar&, const Vector3& d0, const Vector3& d1);
-/// As statics' rule has it: the tension of a string, or f with a turning part that takes the tension which the last
-/// linear solution predicted from the chord `last`, so that the derivative is not the exact one.
+/// The force by statics' rule: the tension of a string, or the bar's own force.  The derivative of the bar's own force
+/// is not exact.  Its turning part has another tension: the one that the last linear solution predicted from `last`.
 BarForce bar_static_force(const Bar&, const StaticRule&, const Vector3& last, const Vector3& d);
 /// 1/2 k (l - L)^2.  [J]
 double bar_energy(const Bar&, const Vector3& d);

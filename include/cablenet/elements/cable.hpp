@@ -37,11 +37,11 @@ struct ChordStep {
 
 /// f = T (d0 + d1)/(l0 + l1),  T = theta (EA/L ((p0 + p1)/2 + xi (p1 - p0 - due)) + c/L (l1 - l0)/dt),
 /// theta = (p1 - p0)/(l1 - l0).  [N]
-/// p is the elongation that carries tension.  It is l - L, or 0 where the element is slack and tension_only.
+/// The elongation p carries the tension.  It is l - L, or 0 where a tension_only element is slack.
 /// Without the terms in xi and c, the work f . (d1 - d0) is exactly the change of the strain energy EA/L p^2/2.  (T is
-/// then the discrete gradient of that energy.)  The term in xi compares the growth of p in this step with that in the
-/// step before.  It never makes the sum of all energy and of xi/2 EA/L (p1 - p0)^2 grow.  What it takes from a smooth
-/// motion is of third order in dt for each step.
+/// then the discrete gradient of that energy.)  The term in xi resists a growth of p other than
+/// `due`, which the steps before let expect (next_due()).  It never raises the sum of all energy and of
+/// xi/(2 + 2 a) EA/L due^2.  What it takes from a smooth motion is of third order in dt for each step.
 /// A tension_only element never pushes: T is 0 where the formula is negative.
 Vector3 energy_momentum_force(const CableMaterial&, double L, const ChordStep&);
 

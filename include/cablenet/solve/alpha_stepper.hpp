@@ -107,7 +107,7 @@ private:
   AlphaStep step_{};
   bool keeps_mean_acceleration_ = false, keeps_own_acceleration_ = false;
   bool shows_while_solving_ = true, user_adapts_ = false;
-  int attempts_ = 0, repeats_ = 0;      ///< at the running step; repeats did not shorten it
+  int attempts_ = 0, repeats_ = 0;      ///< at the running step; a repeat has the same length
   double t_ = 0, dt_ = 0, taken_ = 0;   ///< of the running step [s], and the length of the last; 0: there was none
   long rejected_ = 0, newton_ = 0, linear_ = 0;   ///< so far
   std::function<bool(const Error&, double)> accepts_;

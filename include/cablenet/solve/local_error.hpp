@@ -50,7 +50,7 @@ public:
   explicit LocalError(double longest = 0, bool conserves = false, double axial_dissipation = 0)
       : longest_(longest), conserves_(conserves), axial_dissipation_(axial_dissipation) {}
 
-  /// Allocates what it keeps of the network.  The first estimate does it otherwise.
+  /// Allocates what is kept of the network's nodes and bodies.  Without this call the first estimate allocates it.
   void prepare(const partition::LocalNetwork& network);
   /// Of a step that leads from `start` to x1.  [m]  Collective.
   /// @param growth  of each unknown's kept acceleration in the step before [m/s^2]; empty where it is not to count
