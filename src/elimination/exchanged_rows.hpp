@@ -20,20 +20,18 @@ void column_sizes(const double* a, double* size, N n) {
 /// Factors A in place: P A = L U with unit L.  The reciprocals of the pivots stand on the diagonal.  A pivot is
 /// compared with the largest entry of its column, because a body's unknowns have different units.
 /// @param origin  gets the row of A that became row k
-/// @returns the sign of A's determinant, or 0 if A is singular to rounding
+/// @returns false if A is singular to rounding
 template <class N>
-int factor_block(double* a, int* origin, N n) {
+bool factor_block(double* a, int* origin, N n) {
   double size[largest_block];
   column_sizes(a, size, n);
   for (int r = 0; r < n; ++r) origin[r] = r;
-  int sign = 1;
   for (int k = 0; k < n; ++k) {
     int best = k;
     for (int r = k + 1; r < n; ++r) best = std::fabs(a[r * n + k]) > std::fabs(a[best * n + k]) ? r : best;
     const double pivot = a[best * n + k];
     // The negated comparison makes nan count as zero.
-    if (!(std::fabs(pivot) > std::numeric_limits<double>::epsilon() * size[k])) return 0;
-    if ((pivot < 0) != (best != k)) sign = -sign;
+    if (!(std::fabs(pivot) > std::numeric_limits<double>::epsilon() * size[k])) return false;
     if (best != k) {
       std::swap(origin[k], origin[best]);
       for (int c = 0; c < n; ++c) std::swap(a[k * n + c], a[best * n + c]);
@@ -44,7 +42,7 @@ int factor_block(double* a, int* origin, N n) {
       for (int c = k + 1; c < n; ++c) a[r * n + c] -= factor * a[k * n + c];
     }
   }
-  return sign;
+  return true;
 }
 
 /// Replaces each row w by w A^-1, all rows at a time.

@@ -2,6 +2,7 @@
 
 #include "cablenet/elimination/elimination.hpp"
 #include "exchanged_rows.hpp"
+#include "inertia.hpp"
 #include "sized_kernels.hpp"
 #include "uniform_kernels.hpp"
 
@@ -9,12 +10,11 @@
 namespace cablenet::elimination {
 namespace {
 
-/// @returns the number of negative pivots as in Pivots::negative, or -1 if the pivot block is singular
+/// @returns the number of negative pivots where they tell, or -1 if the pivot block is singular
 int factor_pivot(double* pivot, int*, Size<3>) { return factor_block(pivot); }
 template <class Own>
 int factor_pivot(double* pivot, int* origin, Own own) {
-  const int sign = factor_block(pivot, origin, own);
-  return sign == 0 ? -1 : sign < 0;
+  return factor_block(pivot, origin, own) ? 0 : -1;
 }
 
 template <class Rows>
@@ -35,7 +35,7 @@ void solve_pivot(double* w, const double* pivot, const int* origin, Own own) {
 }   // namespace
 
 void Elimination::prepare_mixed() {
-  int unknown = 0, exchanges = 0;
+  int unknown = 0, exchanges = 0, copies = 0;
   for (const int size : plan_.size) {
     begin_.push_back(unknown);
     unknown += size;
@@ -47,10 +47,21 @@ void Elimination::prepare_mixed() {
     if (own == 3 && std::all_of(later + plan_.first_later[at(k)], later + plan_.first_later[at(k) + 1],
                                 [this](int j) { return plan_.size[at(j)] == 3; }))
       continue;
-    large_.push_back({k, exchanges});
-    if (own != 3) exchanges += own;
+    large_.push_back({k, exchanges, copies});
+    if (own == 3) continue;
+    exchanges += own;
+    copies += own * own;
   }
   origins_.resize(at(exchanges));
+  bodies_.resize(at(copies));
+}
+
+int Elimination::negative_in_bodies() const {
+  int negative = 0;
+  for (const Large& large : large_)
+    if (const int own = plan_.size[at(large.block)]; own != 3)
+      negative += negative_eigenvalues(bodies_.data() + large.copy, own);
+  return negative;
 }
 
 template <class Visit>
@@ -69,6 +80,7 @@ int Elimination::factor_step(const Large& step, Own own, const Arrays& arrays, c
   int* const origin = origins_.data() + step.origins;
   const BlockSource* source = sources_.data() + k + 2 * std::ptrdiff_t{plan_.first_later[at(k)]};
   load_block(pivot, *source++, arrays, own, own);
+  if (own != 3) std::copy_n(pivot, own * own, bodies_.data() + step.copy);
   const int negative = factor_pivot(pivot, origin, own);
   if (negative < 0) return negative;
   visit_later(k, [&](double* upper, double* lower, int j) {

@@ -41,7 +41,10 @@ public:
   /// Collective.  @returns false if a rank has failed or the matrix is singular
   bool solve();
   const double* solution(InterfaceNode node) const { return sum_.data() + begin_[node]; }
-  const elimination::Pivots& pivots() const { return pivots_; }
+  /// Those of bodies included.
+  elimination::Pivots pivots() const {
+    return {pivots_.singular, pivots_.negative + elimination_->negative_in_bodies()};
+  }
 
 private:
   MPI_Comm communicator_;

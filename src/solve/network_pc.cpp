@@ -93,9 +93,9 @@ PetscErrorCode NetworkPc::Impl::apply(PC pc, Vec b, Vec x) {
 PivotReport NetworkPc::Impl::pivots() const {
   long found[2] = {pivots_.singular < 0 ? -1 : number(pivots_.singular).value(), 0};
   MPI_Allreduce(MPI_IN_PLACE, &found[0], 1, MPI_LONG, MPI_MAX, communicator_);
-  const long inside = pivots_.negative;
+  const long inside = pivots_.negative + elimination_->negative_in_bodies();
   MPI_Allreduce(&inside, &found[1], 1, MPI_LONG, MPI_SUM, communicator_);
-  const elimination::Pivots& shared = interface_->pivots();
+  const elimination::Pivots shared = interface_->pivots();
   if (found[0] < 0 && shared.singular >= 0) found[0] = numbers_[at(shared.singular)].value();
   return {SolverNumber(static_cast<int>(found[0])), found[1] + shared.negative};
 }

@@ -304,12 +304,27 @@ TEST(Elimination, CountsNegativeEigenvalues) {
   EXPECT_GT(pivots.negative, 3);
 }
 
-TEST(Elimination, CountsWhetherABodyHasAnOddNumberOfNegativeEigenvalues) {
+TEST(Elimination, CountsABodysNegativeEigenvalues) {
   System s = random_system({3, 7, 3, 6, 7, 3}, 6, chain, true);
   s.matrix *= 0.1;
   for (const auto& [block, negative] : {std::pair{0, 3}, {1, 5}, {3, 4}, {4, 1}, {5, 1}})
     s.matrix.diagonal().segment(s.begin(block), negative).array() -= 2;
-  EXPECT_EQ(s.elimination(false).factor({s.matrix.data(), nullptr, nullptr}).negative, 3 + 1 + 0 + 1 + 1);
+  const auto eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(s.matrix).eigenvalues();
+  Elimination elimination = s.elimination(false);
+  const Pivots pivots = elimination.factor({s.matrix.data(), nullptr, nullptr});
+  EXPECT_EQ(pivots.negative + elimination.negative_in_bodies(), (eigenvalues.array() < 0).count());
+  EXPECT_GE(elimination.negative_in_bodies(), 3);
+}
+
+/// Blocks that have no factors without exchanges: pairs of unknowns that are coupled and have no diagonal.
+TEST(Elimination, CountsTheNegativeOneOfEachPairWithoutDiagonal) {
+  System s{{3, 6}, 2, {{0, 1}}, Dense::Identity(9, 9)};
+  s.matrix.bottomRightCorner<6, 6>().setZero();
+  for (const auto& [i, j, coupling] : {std::tuple{3, 7, 1.0}, {4, 6, -1e9}, {5, 8, 1e-9}})
+    s.matrix(i, j) = s.matrix(j, i) = coupling;
+  Elimination elimination = s.elimination(false);
+  EXPECT_EQ(elimination.factor({s.matrix.data(), nullptr, nullptr}).singular, -1);
+  EXPECT_EQ(elimination.negative_in_bodies(), 3);
 }
 
 TEST(Plan, CountsItsWorkAndGivesUpBeyondTheLimit) {

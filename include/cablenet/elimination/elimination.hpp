@@ -33,9 +33,7 @@ using Arrays = std::array<const double*, 3>;
 /// The verdict of a factorisation on its pivots.
 struct Pivots {
   int singular = -1;   ///< the first block whose pivot is singular to rounding, where the factorisation ended; -1: none
-  /// The number of negative pivots.  A symmetric matrix has as many negative eigenvalues.  A pivot block that is not
-  /// 3x3 exchanges rows: it counts 1 where its number of negative pivots is odd, and 0 where it is even.
-  int negative = 0;
+  int negative = 0;    ///< pivots in the blocks of 3x3
 };
 
 /// A block elimination.  It makes use of symmetry only where all blocks are 3x3.
@@ -48,6 +46,8 @@ public:
 
   /// Factors the matrix whose entries are in `arrays`, and computes what that changes in the kept blocks' couplings.
   Pivots factor(const Arrays& arrays);
+  /// Negative eigenvalues of other pivot blocks.  With Pivots::negative they are as many as a symmetric matrix has.
+  int negative_in_bodies() const;
   /// The block that has to be added to a coupling of kept blocks after factor(), row-major.
   const double* update(const Plan::Kept& kept) const { return values_.data() + kept.values; }
 
@@ -61,9 +61,9 @@ public:
 
 private:
   /// A step of the elimination at which not all blocks are 3x3.  The row exchanges of its pivot begin at
-  /// origins_[origins], unless the pivot is 3x3.
+  /// origins_[origins], and a copy of it at bodies_[copy], unless the pivot is 3x3.
   struct Large {
-    int block, origins;
+    int block, origins, copy;
   };
   /// A vector over all blocks.  The `count` values of the eliminated blocks stand apart from the kept ones'.
   template <class Value>
@@ -113,6 +113,7 @@ private:
   std::vector<Large> large_;
   std::vector<int> begin_;       ///< where sizes are mixed: each block's first unknown, and one past the last
   std::vector<int> origins_;     ///< row exchanges of the pivots that are not 3x3
+  std::vector<double> bodies_;   ///< the pivots that are not 3x3, before they were factored
   std::vector<double> column_;   ///< where symmetric: the blocks below a pivot before the division by it
 };
 
