@@ -112,9 +112,10 @@ std::string describe(const Report::Statics& statics) {
   const Vector3& v = statics.frame;
   const std::string frame =
       v.isZero(0) ? "" : fmt::format(", moving at ({:.6g}, {:.6g}, {:.6g}) m/s", v.x(), v.y(), v.z());
+  const char* const rounding = statics.ends_by_rounding ? ", which is rounding's share" : "";
   return fmt::format(
-      "equilibrium{}: largest unbalanced force {:.2g} of the largest load on a node ({:.4g} N), {} iterations", frame,
-      statics.imbalance, statics.largest_load, statics.iterations);
+      "equilibrium{}: largest unbalanced force {:.2g} of the largest load on a node ({:.4g} N){}, {} iterations", frame,
+      statics.imbalance, statics.largest_load, rounding, statics.iterations);
 }
 
 void write_report(const std::filesystem::path& path, const scene::Scene& scene, const network::Network& network,

@@ -17,6 +17,7 @@
 #include "cablenet/solve/scheme.hpp"
 #include "cablenet/solve/statics.hpp"
 #include "choices.hpp"
+#include "static_notes.hpp"
 #include "stopwatch.hpp"
 
 namespace cablenet::app {
@@ -110,9 +111,12 @@ private:
   bool find_equilibrium() {
     const bool found = statics_->solve();
     watch_.lap(equilibrium_);
-    report_.statics = {frame_, statics_->imbalance(), statics_->largest_load(), statics_->iterations()};
+    report_.statics = {frame_, statics_->imbalance(), statics_->largest_load(), statics_->iterations(),
+                       statics_->ends_by_rounding()};
     if (rank_ == 0 && found) fmt::print("{}\n", describe(*report_.statics));
     if (found && statics_->is_unstable()) note("the equilibrium is not stable: a disturbance would leave it");
+    if (found) note(note_of_pushing(network_, statics_->pushing(), PETSC_COMM_WORLD));
+    if (found) note(note_of_touchdown(network_, statics_->on_bed(), PETSC_COMM_WORLD));
     return found;
   }
 
@@ -167,6 +171,7 @@ private:
   }
 
   void note(const std::string& text) {
+    if (text.empty()) return;
     if (rank_ == 0) fmt::print(stderr, "cablenet: note: {}\n", text);
     report_.notes.push_back(text);
   }

@@ -26,6 +26,11 @@ const OwnOption elimination_limit_option{
 const OwnOption statics_monitor_option{
     {"-cable_statics_monitor", "shows the iterations on the way to equilibrium"}, "no value", "off"};
 
+const OwnOption statics_time_limit_option{
+    {"-cable_statics_time_limit", "how long to look for an equilibrium [s]; then exit status 3"},
+    "seconds, >= 0",
+    "no limit"};
+
 const OwnOption most_gained_option{
     {"-cable_most_gained", "the most energy that a scheme may bring in from nowhere, over what the run moves"},
     "a number >= 0; 2 lets everything pass",
@@ -33,8 +38,9 @@ const OwnOption most_gained_option{
 
 namespace {
 
-constexpr std::array all{&axial_dissipation_option, &tangent_option, &elimination_limit_option, &statics_monitor_option,
-                         &most_gained_option};
+constexpr std::array all{&axial_dissipation_option,  &tangent_option,
+                         &elimination_limit_option,  &statics_monitor_option,
+                         &statics_time_limit_option, &most_gained_option};
 
 }   // namespace
 

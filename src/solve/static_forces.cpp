@@ -20,6 +20,9 @@ constexpr double agreement = 0.25, steadiness = 1e-6, first_part = 0.2;
 /// keeps the number of iterations from growing with the bed's stiffness or with the number of elements.
 constexpr double bed_over_cables = 1e-4;
 
+/// Likewise where cables are softened, too.
+constexpr double bed_over_soft_cables = 0.01;
+
 /// The most that a bed is softened.  It is reached where the cables carry next to nothing.
 constexpr double softest_bed = 1e12;
 
@@ -89,7 +92,9 @@ StaticForces::StaticForces(system::Assembler& assembler, double t, const Vector3
       stiffest_bed_(measure_bed(assembler.network(), assembler.communicator())),
       softest_cable_(softest_cable(assembler.network())),
       v_(assembler.make_vector()),
-      resting_(assembler.make_vector()) {
+      resting_(assembler.make_vector()),
+      drag_(assembler.make_vector()),
+      scratch_(assembler.make_vector()) {
   fill_velocity(assembler_.network(), velocity_, v_);
 }
 
@@ -108,6 +113,8 @@ bool StaticForces::is_in_flow() const {
 /// Against soft cables a hard bed is a wall, before which Newton's steps shrink to nothing.
 double StaticForces::bed_softness(const system::StaticRule& rule) const {
   if (rule.kind == system::StaticRule::Kind::exact) return 1;
+  if (rule.kind == system::StaticRule::Kind::descent)
+    return std::clamp(stiffest_bed_ / (bed_over_soft_cables * rule.most_stiffness), 1.0, softest_bed);
   const double cable =
       rule.kind == system::StaticRule::Kind::strings ? rule.string_tension * rule.exponent : softest_cable_;
   return std::clamp(stiffest_bed_ / (bed_over_cables * cable), 1.0, softest_bed);
@@ -117,8 +124,9 @@ system::Situation StaticForces::situation(system::InternalForce internal, const 
   return {.stage = {t_, 0, 0},
           .internal = internal,
           .rule = rule,
-          .frame = velocity_,
+          .frame = holds_drag_ ? Vector3(0, 0, 0) : velocity_,
           .is_calm = true,
+          .is_still = holds_drag_,
           .bed_softness = bed_softness(rule)};
 }
 
@@ -129,21 +137,92 @@ void StaticForces::keep(Vec x) {
 bool StaticForces::residual(const system::StaticRule& rule, Vec x, Vec r, system::TangentMatrix* tangent,
                             const Steadying& steadying) {
   const system::Situation now = situation(system::InternalForce::of_statics, rule);
-  if (tangent == nullptr) return assembler_.evaluate(now, x, v_, resting_, r, nullptr);
+  const Vec v = holds_drag_ ? Vec(resting_) : Vec(v_);
+  const auto add_drag = [&] {
+    if (holds_drag_) check(VecAXPY(r, 1, drag_));
+  };
+  if (tangent == nullptr) {
+    const bool in_domain = assembler_.evaluate(now, x, v, resting_, r, nullptr);
+    add_drag();
+    return in_domain;
+  }
   const double s = steadying.pseudo_rate;
   const bool is_linear = rule.kind == system::StaticRule::Kind::strings && rule.exponent == 1;
   const system::TangentRequest request{
       *tangent, {1, s, s * s}, is_linear, rule.kind == system::StaticRule::Kind::exact ? 0 : steadying.steadiness};
-  const bool in_domain = assembler_.evaluate(now, x, v_, resting_, r, &request);
+  const bool in_domain = assembler_.evaluate(now, x, v, resting_, r, &request);
   tangent->publish();
+  add_drag();
   return in_domain;
+}
+
+double StaticForces::potential(const system::StaticRule& rule, Vec x) {
+  assembler_.observe(t_, x, v_, resting_);
+  double sum = assembler_.potential(situation(system::InternalForce::of_statics, rule));
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, assembler_.communicator());
+  return sum;
 }
 
 /// The bed is no load.  It answers the other forces, enormously where the drawn shape lies in it.
 void StaticForces::loads(Vec x, Vec r) {
-  system::Situation now = situation(system::InternalForce::none, {});
-  now.bed_softness = 0;
-  assembler_.evaluate(now, x, v_, resting_, r, nullptr);
+  raw_loads(x, r, holds_drag_);
+  if (holds_drag_) check(VecAXPY(r, 1, drag_));
+}
+
+void StaticForces::raw_loads(Vec x, Vec r, bool is_still) {
+  const system::Situation now{.stage = {t_, 0, 0},
+                              .internal = system::InternalForce::none,
+                              .frame = is_still ? Vector3(0, 0, 0) : velocity_,
+                              .is_calm = true,
+                              .is_still = is_still,
+                              .bed_softness = 0};
+  assembler_.evaluate(now, x, is_still ? resting_ : v_, resting_, r, nullptr);
+}
+
+void StaticForces::hold_drag(Vec x, double share) {
+  if (!holds_drag_) share = 1;
+  holds_drag_ = true;
+  check(VecScale(drag_, 1 - share));
+  raw_loads(x, scratch_, false);
+  check(VecAXPY(drag_, share, scratch_));
+  raw_loads(x, scratch_, true);
+  check(VecAXPY(drag_, -share, scratch_));
+}
+
+std::vector<std::pair<int, double>> StaticForces::on_bed(Vec x) {
+  const system::LocalState& state = assembler_.observe(t_, x, v_, resting_);
+  const partition::LocalNetwork& network = assembler_.network();
+  const network::Surroundings& around = network.surroundings;
+  std::vector<std::pair<int, double>> found;
+  for (int i = 0; around.bed && i < network.own_elements; ++i) {
+    const partition::LocalElement& e = network.elements[at(i)];
+    const elements::CableMaterial& material = network.materials[at(e.material)];
+    const double reach = around.bed->level + around.on_bed[at(e.material)].smoothing;
+    const bool lies[2] = {state.position(e.node[0]).z() <= reach, state.position(e.node[1]).z() <= reach};
+    if (!lies[0] && !lies[1]) continue;
+    const elements::Chord chord = state.chord(e);
+    const double displaced = around.fluid ? around.in_water[at(e.material)].displaced : 0;
+    const double weight = (material.mass_per_length - displaced) * e.length * network.gravity;
+    const double lift = elements::cable_tension(material, e.length, chord) * std::abs(chord.d.z()) / chord.d.norm();
+    if (lies[0] && lies[1])
+      found.emplace_back(network.scene_element[at(i)], 1);
+    else if (lift < weight)
+      found.emplace_back(network.scene_element[at(i)], 0);
+  }
+  return found;
+}
+
+std::vector<std::pair<int, double>> StaticForces::pushing(Vec x, double least) {
+  const system::LocalState& state = assembler_.observe(t_, x, v_, resting_);
+  const partition::LocalNetwork& network = assembler_.network();
+  std::vector<std::pair<int, double>> found;
+  for (int i = 0; i < network.own_elements; ++i) {
+    const partition::LocalElement& e = network.elements[at(i)];
+    const double T =
+        elements::cable_tension(network.materials[at(e.material)], e.length, {state.chord(e).d, Vector3::Zero()});
+    if (-T > least) found.emplace_back(network.scene_element[at(i)], -T);
+  }
+  return found;
 }
 
 TensionRange StaticForces::tensions(Vec x) {

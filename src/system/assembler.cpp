@@ -180,6 +180,12 @@ Energies Assembler::energies() const {
   return sum;
 }
 
+double Assembler::potential(const Situation& situation) const {
+  double sum = 0;
+  for_each_term(parts_->terms, [&](const auto& term) { term.add_potential(situation, state_, sum); });
+  return sum;
+}
+
 Vector3 Assembler::end_force(int element, std::size_t end) const {
   Vector3 sum = Vector3::Zero();
   for_each_term(parts_->terms, [&](const auto& term) { sum += term.end_force(state_, element, end); });

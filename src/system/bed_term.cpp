@@ -45,8 +45,22 @@ struct BedKernel {
 void BedTerm::add(Evaluation& evaluation) {
   const double softness = evaluation.situation.bed_softness;
   if (!network_.surroundings.bed || softness == 0) return;
-  const BedKernel kernel(network_, softness, evaluation.situation.stage.dt);
+  BedKernel kernel(network_, softness, evaluation.situation.stage.dt);
+  if (evaluation.situation.internal == InternalForce::of_statics) kernel.bed.damping = 0;
   add_to_ends(evaluation, kernel, evaluation.target.shift);
+}
+
+void BedTerm::add_potential(const Situation& situation, const LocalState& state, double& sum) const {
+  const auto& bed = network_.surroundings.bed;
+  const double softness = situation.bed_softness;
+  if (!bed || softness == 0) return;
+  for (const partition::LocalElement& e : own_elements()) {
+    const network::CableOnBed& cable = network_.surroundings.on_bed[at(e.material)];
+    const double stiffness = bed->stiffness / softness * 0.5 * cable.diameter * e.length;
+    for (const LocalNode node : e.node)
+      sum += stiffness *
+             environment::indentation_integral(bed->level - state.position(node).z(), softness * cable.smoothing);
+  }
 }
 
 void BedTerm::add_scales(const LocalState&, ForceSums& sums) const {

@@ -12,6 +12,7 @@ public:
   bool has_rates() const { return network_.surroundings.bed.has_value(); }
   bool is_symmetric(const ForceRule&) const { return !has_rates(); }
   void add(Evaluation& evaluation);
+  void add_potential(const Situation& situation, const LocalState& state, double& sum) const;
   void add_scales(const LocalState&, ForceSums& sums) const;
   Vector3 end_force(const LocalState& state, int element, std::size_t end) const;
 };

@@ -10,8 +10,8 @@ void BodyWaterTerm::add(Evaluation& evaluation) {
     const partition::LocalBody& body = network_.bodies[at(b)];
     const bool turns = evaluation.bodies.unknowns(b) > 0;
     const Matrix3 R = turns ? evaluation.bodies.forces(b).lever : Matrix3(body.properties.attitude.toRotationMatrix());
-    const bodies::BodyLoad load = bodies::body_load(*body.water, fluid(evaluation.situation.is_calm), evaluation.time(),
-                                                    R, {nodes.x(body.node), nodes.v(body.node), nodes.a(body.node)});
+    const bodies::BodyLoad load = bodies::body_load(*body.water, fluid(evaluation.situation), evaluation.time(), R,
+                                                    {nodes.x(body.node), nodes.v(body.node), nodes.a(body.node)});
     if (evaluation.has_residual) nodes.r(body.node) -= load.force;
     if (evaluation.has_tangent) add_slopes(b, load, R, evaluation);
   }

@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "cablenet/elements/cable.hpp"
+#include "cablenet/elements/static_law.hpp"
 #include "element_loops.hpp"
 #include "law_choice.hpp"
 
@@ -161,6 +162,13 @@ void CableTerm::add_energy(const LocalState& state, Energies& sum) const {
     sum.strain += elements::cable_strain_energy(material, e.length, state.chord(e).d);
     sum.gravity += material.mass_per_length * e.length * network_.gravity * height;
   }
+}
+
+void CableTerm::add_potential(const Situation& situation, const LocalState& state, double& sum) const {
+  for (const partition::LocalElement& e : own_elements())
+    sum += e.length * elements::static_tension(situation.rule, network_.materials[at(e.material)],
+                                               (state.chord(e).d.norm() - e.length) / e.length)
+                          .energy;
 }
 
 /// The change of elongation in a step is that from the step's start before.

@@ -21,6 +21,7 @@ public:
   void begin_step(Evaluation& evaluation);
   void add(Evaluation& evaluation);
   void add_energy(const LocalState& state, Energies& sum) const;
+  void add_potential(const Situation& situation, const LocalState& state, double& sum) const;
   void add_scales(const LocalState& state, ForceSums& sums) const;
   void end_step(const StepEnd& end) { taken_ = {end.stage.dt, step_pace(end.stage.dt, before_.dt)}; }
   Vector3 end_force(const LocalState& state, int element, std::size_t end) const;

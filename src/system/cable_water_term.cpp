@@ -38,7 +38,7 @@ void CableWaterTerm::add(Evaluation& evaluation) {
   if (!has_rates()) return;
   Shift shift = evaluation.target.shift;
   if (evaluation.target.holds_water) shift.x = 0;
-  elements::visit_water(fluid(evaluation.situation.is_calm), evaluation.time(), network_.gravity,
+  elements::visit_water(fluid(evaluation.situation), evaluation.time(), network_.gravity,
                         [&]<class Water>(const Water& water) {
                           add_to_elements(evaluation, WaterKernel<Water>{network_, water}, shift);
                         });

@@ -56,8 +56,7 @@ LawChoice choose_law(const ForceRule& rule, const Situation& situation, bool is_
     case InternalForce::of_instant:
       return elements::StageLaw<true>{rule.tangent};
     case InternalForce::of_statics:
-      if (situation.rule.kind == StaticRule::Kind::exact) return elements::StageLaw<true>{rule.tangent};
-      return elements::StaticLaw{situation.rule};
+      return elements::StaticLaw{situation.rule, rule.tangent};
     case InternalForce::none:
       break;
   }

@@ -92,6 +92,12 @@ void LinkTerm::add_energy(const LocalState& state, Energies& sum) const {
   }
 }
 
+void LinkTerm::add_potential(const Situation&, const LocalState& state, double& sum) const {
+  Energies energies;
+  add_energy(state, energies);
+  sum += energies.strain;
+}
+
 void LinkTerm::add_scales(const LocalState&, ForceSums& sums) const {
   for (int i = 0; i < network_.own_links; ++i) sums.stiffness += square(2 * network_.links[at(i)].stiffness);
 }

@@ -21,6 +21,7 @@ public:
   void begin_step(Evaluation& evaluation);
   void add(Evaluation& evaluation);
   void add_energy(const LocalState& state, Energies& sum) const;
+  void add_potential(const Situation&, const LocalState& state, double& sum) const;
   void add_scales(const LocalState&, ForceSums& sums) const;
 
 private:

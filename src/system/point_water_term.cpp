@@ -26,7 +26,7 @@ struct PointWaterKernel {
 
 void PointWaterTerm::add(Evaluation& evaluation) {
   if (slots_.empty()) return;
-  const PointWaterKernel kernel{network_, fluid(evaluation.situation.is_calm), evaluation.time()};
+  const PointWaterKernel kernel{network_, fluid(evaluation.situation), evaluation.time()};
   add_to_nodes(evaluation, kernel, network_.wet_points, slots_);
 }
 

@@ -45,6 +45,8 @@ public:
   void end_step(const StepEnd&) {}
   /// Adds this rank's part of what the term stores, and of the work that it has done.  [J]
   void add_energy(const LocalState&, Energies&) const {}
+  /// Adds this rank's part of the potential of the internal forces and of the bed, as statics' situation has them.  [J]
+  void add_potential(const Situation&, const LocalState&, double&) const {}
   /// Adds this rank's squares of forces and stiffnesses.
   void add_scales(const LocalState&, ForceSums&) const {}
   /// The term's share of what pulls at an element's end: its residual there.  [N]

@@ -4,12 +4,14 @@
 
 namespace cablenet::system {
 
-/// What the loads of water have in common: the scene's water, and the same without waves.
+/// What the loads of water have in common: the scene's water, the same without waves, and the same at rest.
 class WaterTerm : public Term {
 public:
   explicit WaterTerm(const partition::LocalNetwork& network)
       : Term(network), fluid_(network.surroundings.fluid), calm_(fluid_) {
     if (calm_) calm_->waves.clear();
+    still_ = calm_;
+    if (still_) still_->current.clear();
   }
 
   bool has_rates() const { return fluid_.has_value(); }
@@ -17,10 +19,13 @@ public:
 
 protected:
   /// @pre there is water
-  const environment::Fluid& fluid(bool is_calm) const { return is_calm ? *calm_ : *fluid_; }
+  const environment::Fluid& fluid(bool is_calm, bool is_still = false) const {
+    return is_still ? *still_ : is_calm ? *calm_ : *fluid_;
+  }
+  const environment::Fluid& fluid(const Situation& now) const { return fluid(now.is_calm, now.is_still); }
 
 private:
-  std::optional<environment::Fluid> fluid_, calm_;
+  std::optional<environment::Fluid> fluid_, calm_, still_;
 };
 
 }   // namespace cablenet::system

@@ -5,7 +5,7 @@ from bench import arguments
 from command_line import SCENE, Bench
 
 OWN = ("cable_axial_dissipation", "cable_tangent", "cable_elimination_limit", "cable_statics_monitor",
-       "cable_most_gained")
+       "cable_statics_time_limit", "cable_most_gained")
 # It hangs on nothing, so that there is no equilibrium: the last resort, settling in time, is tried too.
 SETTLING = """
 environment: {gravity: 9.81}

@@ -227,12 +227,20 @@ TEST_P(Instant, TheMassMatrixIsTheForcesDerivativeByTheAcceleration) {
   EXPECT_LE(relative_difference(times_direction(system, s, mass), slope(system, s, 1)), 1e-10);
 }
 
-/// Statics works in a frame that moves as the prescribed nodes do, with the waves calmed.
+/// Nothing of it is damped.
+network::Network undamped(network::Network network) {
+  for (auto& material : network.materials) material.axial_damping = material.mass_damping = 0;
+  if (network.surroundings.bed) network.surroundings.bed->damping = 0;
+  return network;
+}
+
+/// Statics works in a frame that moves as the prescribed nodes do, with the waves calmed, and without dampers.
 TEST_P(Instant, TheStaticTangentIsTheForcesDerivative) {
   Named still = thing_;
   if (const std::size_t law = still.text.find("{harmonic"); law != std::string::npos)
     still.text.replace(law, still.text.find("}}", law) + 2 - law, "fixed");
-  System system(network_of(setting_, still), rule_, PETSC_COMM_WORLD);
+  const network::Network network = network_of(setting_, still);
+  System system(undamped(network), rule_, PETSC_COMM_WORLD), damped(network, rule_, PETSC_COMM_WORLD);
   Stages s(system, 0.5);
   s.stage = {0.4, 0, 0};
   const Vector3 frame = solve::StaticForces::frame_velocity(system.assembler, s.stage.t, 1);
@@ -242,13 +250,16 @@ TEST_P(Instant, TheStaticTangentIsTheForcesDerivative) {
   petsc::check(VecSet(s.a, 0));
   fill_velocity(system, frame, s.v);
   system::TangentMatrix tangent = system.assembler.make_tangent();
-  const system::Vector r = system.assembler.make_vector();
+  const system::Vector r = system.assembler.make_vector(), with_dampers = system.assembler.make_vector();
+  solve::StaticForces of_damped(damped.assembler, s.stage.t, frame);
   for (const double shift : {0.0, 7.0}) {
     s.shift_v = shift;
     s.shift_a = shift * shift;
     EXPECT_TRUE(forces.residual({system::StaticRule::Kind::exact}, s.x, r, &tangent, {shift, 0}));
     EXPECT_LE(relative_difference(r, residual_at(system, s, 0)), 1e-12);
     EXPECT_LE(relative_difference(times_direction(system, s, tangent), slope(system, s, 1e-6)), 3e-8) << shift;
+    EXPECT_TRUE(of_damped.residual({system::StaticRule::Kind::exact}, s.x, with_dampers, nullptr, {shift, 0}));
+    EXPECT_LE(relative_difference(with_dampers, r), 1e-14);
   }
 }
 

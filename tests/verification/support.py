@@ -62,11 +62,11 @@ class Verification:
         return run
 
     def attempt(self, scene, *options):
-        """Runs a scene that may fail.  @return the run, or None if there is no history, and the finished process"""
+        """Runs a scene, a dict or the text of a file, that may fail.  @return the run, or None if there is no history, and the finished process"""
         self.runs += 1
         folder = self.scratch / str(self.runs)
         path = folder.with_suffix(".yaml")
-        path.write_text(json.dumps(scene))   # JSON is YAML
+        path.write_text(scene if isinstance(scene, str) else json.dumps(scene))   # JSON is YAML
         launcher = ["mpirun", "-n", str(self.ranks)] if self.ranks else []
         command = [*launcher, self.program, "run", str(path), "-o", str(folder), *map(str, options)]
         started = time.monotonic()

@@ -26,6 +26,8 @@ cablenet_script_test(verification_static_choices verification/static_choices.py 
 cablenet_script_test(verification_published_statics verification/published_statics.py 120 verification)
 cablenet_script_test(verification_steady_tow verification/steady_tow.py 120 verification)
 cablenet_script_test(verification_static_networks verification/static_networks.py 120 verification)
+cablenet_script_test(verification_slack_moorings verification/slack_moorings.py 300 verification)
+cablenet_script_test(verification_static_scenes verification/static_scenes.py 300 verification)
 cablenet_script_test(verification_bergdahl verification/bergdahl.py 120 verification)
 cablenet_script_test(verification_yardstick verification/yardstick.py 60 verification
   --yardstick $<TARGET_FILE:yardstick_chain>)

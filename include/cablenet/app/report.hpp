@@ -29,6 +29,7 @@ struct Report {
     double imbalance;      ///< largest unbalanced force over the largest load on a node
     double largest_load;   ///< [N]
     int iterations;
+    bool ends_by_rounding;   ///< The imbalance is rounding's share, and more than what passes otherwise.
   };
   std::optional<Statics> statics;       ///< where there was an equilibrium to find
   std::optional<EnergyReport> energy;   ///< where accounts were kept

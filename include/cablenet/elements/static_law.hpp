@@ -7,35 +7,58 @@
 
 namespace cablenet::elements {
 
-/// Statics' ways to the internal force.
+/// A tension [N], its derivative by the strain [N], and its integral [N].
+struct StaticTension {
+  double T, stiffness, energy;
+};
+
+/// T = EA strain, or 0 where the element is slack, as a rule has it that is not of strings.
+inline StaticTension static_tension(const StaticRule& rule, const CableMaterial& material, double strain) {
+  const double EA = std::min(material.axial_stiffness, rule.most_stiffness);
+  if ((material.tension_only || rule.never_pushes) && strain <= 0) return {0, 0, 0};
+  return {EA * strain, EA, 0.5 * EA * strain * strain};
+}
+
+/// Statics' ways to the internal force.  Nothing is damped.
 struct StaticLaw {
-  static constexpr bool general = true;
+  static constexpr bool general = false;
   using Start = Stretch;   ///< at the last iterate
   StaticRule rule;
+  Tangent kind = Tangent::exact;
 
   void begin(const ElementStart& e, Start& start) const { start = stretch(e.d); }
   template <bool with_tangent>
   bool evaluate(const Start& last, const ElementStage& e, Vector3& f, Matrix3& K) const {
     const Stretch s = stretch(e.d);
     const Vector3 direction = 1 / s.l * s.d;
-    const double string = rule.string_tension * std::pow(s.l / e.L, rule.exponent);
     if (rule.kind == StaticRule::Kind::strings) {
+      const double string = string_tension(s.l, e.L);
       f = string * direction;
       if constexpr (with_tangent)
         K = axial_and_turning(rule.exponent * string / s.l, string / s.l, direction, direction);
       return s.l > 0;
     }
-    const double EA = e.material.axial_stiffness, strain = (s.l - e.L) / e.L;
-    const bool slack = e.material.tension_only && strain <= 0;
-    f = slack ? Vector3(0, 0, 0) : Vector3(EA * strain * direction);
+    const StaticTension now = static_tension(rule, e.material, (s.l - e.L) / e.L);
+    f = now.T * direction;
     if constexpr (with_tangent) {
-      // Without what turning has stretched.
-      const double corrected = slack ? 0 : EA * (last.d.dot(s.d) / last.l - e.L) / e.L;
-      const double expected = rule.string_tension > 0 ? string : corrected;
-      K = axial_and_turning((slack ? rule.least_tension : EA) / e.L, std::max(expected, rule.least_tension) / s.l,
-                            direction, direction);
+      const double axial = std::max(now.stiffness, rule.least_tension);
+      K = axial_and_turning(axial / e.L, turning(last, e, s, now) / s.l, direction, direction);
+      K.diagonal().array() += rule.holding / e.L;
     }
     return s.l > 0;
+  }
+
+private:
+  double string_tension(double l, double L) const { return rule.string_tension * std::pow(l / L, rule.exponent); }
+
+  /// The tension that turns the chord.  What turning has stretched is left out on the way.
+  double turning(const Stretch& last, const ElementStage& e, const Stretch& s, const StaticTension& now) const {
+    if (rule.kind == StaticRule::Kind::exact) return kind == Tangent::secant ? 0 : now.T;
+    if (rule.kind == StaticRule::Kind::ropes && rule.string_tension > 0)
+      return std::max(string_tension(s.l, e.L), rule.least_tension);
+    if (now.stiffness == 0) return rule.least_tension;
+    const double strain = (last.d.dot(s.d) / last.l - e.L) / e.L;
+    return std::max(static_tension(rule, e.material, strain).T, rule.least_tension);
   }
 };
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 
 namespace cablenet::elements {
 
@@ -11,11 +12,16 @@ struct StaticRule {
     ropes,     ///< The forces are the cables' own.  The tangent's turning part takes the tension that the last
                ///< linear solution predicted, or the strings' tension where string_tension is given; in any case at
                ///< least least_tension.
+    descent,   ///< As ropes, but no axial stiffness is larger than most_stiffness, and strings of the tension
+               ///< `holding` hold the nodes together in the tangent.  What is slack turns nothing.
     exact      ///< The forces and the tangent are the cables' own.
   } kind = Kind::exact;
   double exponent = 1;
-  double string_tension = 0;   ///< [N]
-  double least_tension = 0;    ///< [N]
+  double string_tension = 0;                                         ///< [N]
+  double least_tension = 0;                                          ///< [N]
+  double most_stiffness = std::numeric_limits<double>::infinity();   ///< EA [N]
+  double holding = 0;                                                ///< [N]
+  bool never_pushes = false;                                         ///< All cables are tension_only.
 };
 
 }   // namespace cablenet::elements

@@ -26,6 +26,13 @@ inline Indentation indentation(double p, double smoothing) {
   return {0.5 * slope * s, slope, 0.5 / smoothing};
 }
 
+/// The integral of P from where contact sets in.  [m^2]
+inline double indentation_integral(double p, double smoothing) {
+  if (p <= -smoothing) return 0;
+  const double s = std::min(p, smoothing) + smoothing, joint = s * s * s / (12 * smoothing);
+  return p < smoothing ? joint : joint + 0.5 * (p - smoothing) * (p + smoothing);
+}
+
 /// The mean of P between two different depths.  The difference of P's antiderivatives is factored: subtracting their
 /// values would cancel digits where the depths are close.
 inline double mean_indentation(double p0, double p1, double smoothing) {

@@ -15,7 +15,7 @@ struct OwnOption {
 };
 
 extern const OwnOption axial_dissipation_option, tangent_option, elimination_limit_option, statics_monitor_option,
-    most_gained_option;
+    statics_time_limit_option, most_gained_option;
 
 std::span<const OwnOption* const> own_options();
 

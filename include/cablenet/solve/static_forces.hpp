@@ -1,4 +1,7 @@
 #pragma once
+#include <utility>
+#include <vector>
+
 #include "cablenet/system/assembler.hpp"
 
 namespace cablenet::solve {
@@ -33,18 +36,33 @@ public:
   bool is_in_flow() const;
   /// Keeps the elements' directions at x.  system::StaticRule::ropes needs those of the iterate before.
   void keep(Vec x);
+  /// From here on the drag is held: it is that at x, whatever the shape.  With `share` of it, and the rest of what was
+  /// held before.  The loads then have a potential, but for the turning of bodies.
+  void hold_drag(Vec x, double share = 1);
+  /// From here on the drag follows the shape.
+  void let_drag_follow() { holds_drag_ = false; }
+  bool holds_drag() const { return holds_drag_; }
+
   /// r = internal forces - loads; with a matrix, also dr/dx + s^2 M + s dr/dv, s the pseudo-rate, published.  [N]
   /// @returns false on a rank where it is not defined
   bool residual(const system::StaticRule& rule, Vec x, Vec r, system::TangentMatrix* tangent,
                 const Steadying& steadying);
+  /// Of the internal forces and the bed.  [J]
+  double potential(const system::StaticRule& rule, Vec x);
   /// What the loads alone leave: r without internal forces, and without the bed.
   void loads(Vec x, Vec r);
   TensionRange tensions(Vec x);
+  /// This rank's elements that push with more than `least` at x, by their numbers in the scene, and how much.  [N]
+  std::vector<std::pair<int, double>> pushing(Vec x, double least);
+  /// This rank's elements on the bed at x, by their numbers in the scene.  1: both ends lie on it.  0: one end does,
+  /// and its vertical pull is less than the element's weight, so that a finer mesh would lie down there.
+  std::vector<std::pair<int, double>> on_bed(Vec x);
   /// Makes x, moving with the frame, the network's start.
   void start_from(Vec x) { assembler_.start_from(t_, x, velocity_); }
 
 private:
   system::Situation situation(system::InternalForce internal, const system::StaticRule& rule) const;
+  void raw_loads(Vec x, Vec r, bool is_still);
   double bed_softness(const system::StaticRule& rule) const;
 
   system::Assembler& assembler_;
@@ -52,7 +70,8 @@ private:
   Vector3 velocity_;
   double stiffest_bed_;    ///< the largest stiffness of a node's contact over an element's EA/L, times EA [N]
   double softest_cable_;   ///< the least EA [N]
-  system::Vector v_, resting_;
+  bool holds_drag_ = false;
+  system::Vector v_, resting_, drag_, scratch_;
 };
 
 }   // namespace cablenet::solve

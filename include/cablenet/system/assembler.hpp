@@ -66,6 +66,8 @@ public:
   const LocalState& observe(double t, Vec x, Vec v, Vec a, bool is_calm = false);
   /// This rank's part of the observed state's energies, and of what was taken since the start.  @pre observe
   Energies energies() const;
+  /// This rank's part of the potential of the internal forces and of the bed in statics.  [J]  @pre observe
+  double potential(const Situation& situation) const;
   /// From the next step on, accounts say where energy goes (src/system/energy_accounts.hpp).  Not collective.
   void keep_accounts();
   /// Up to the last step's end; nullptr where no accounts are kept.  Not collective.

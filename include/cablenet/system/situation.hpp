@@ -29,6 +29,7 @@ struct Situation {
   /// scene says.
   std::optional<Vector3> frame{};
   bool is_calm = false;      ///< The water has no waves.
+  bool is_still = false;     ///< The water has neither waves nor current.
   double bed_softness = 1;   ///< The bed is so many times softer, its smoothing so many times wider.  0: no bed.
 };
 
