@@ -19,7 +19,7 @@ constexpr double softest = 3, hardening = 20;
 
 /// The residual over the loads at which a stage of soft cables ends, and its iterations at most.
 constexpr double rough = 0.3;
-constexpr int most_of_stage = 40, most_iterations = 250, most_of_held = 60;
+constexpr int most_of_stage = 40, most_iterations = 1000, most_of_held = 60;
 
 /// Where there are no loads, cables stretched by this much stand in for them.
 constexpr double slight_strain = 1e-3;
