@@ -80,6 +80,7 @@ private:
   StaticNewton newton_;
   double largest_load_ = 0, imbalance_ = 0;
   bool ends_by_rounding_ = false;
+  PetscReal largest_drawn_load_ = 0;   ///< on a node [N]
   std::string failure_;
 };
 
