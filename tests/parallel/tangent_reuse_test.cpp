@@ -86,6 +86,20 @@ TEST(NewtonConvergence, EndsWhereItsErrorIsBelowRounding) {
   EXPECT_FALSE(ends({1e-10}, false)) << "a guess is corrected at least once";
 }
 
+TEST(NewtonConvergence, AResidualBelowRoundingBoundsTheCurvature) {
+  solve::NewtonConvergence convergence;
+  const auto ends_after = [&](double guess, double corrected) {
+    EXPECT_FALSE(convergence.is_at_rounding(0, guess, of_rounding, false, false));
+    return convergence.is_at_rounding(1, corrected, of_rounding, false, false);
+  };
+  EXPECT_FALSE(ends_after(1, 4e-10)) << "nothing is known yet";
+  EXPECT_TRUE(ends_after(0.1, 4e-10)) << "at most 4e-12 is left";
+  EXPECT_FALSE(ends_after(0.1, 4e-10)) << "4e-8 is the last bound: at most 4e-10 is left";
+  EXPECT_FALSE(ends_after(1, 1e-5)) << "now the curvature is seen, 1e-5";
+  EXPECT_FALSE(ends_after(0.01, 1e-14)) << "1e-9 is left";
+  EXPECT_FALSE(ends_after(0.01, 1e-14)) << "what is seen stands";
+}
+
 TEST(NewtonConvergence, WhatItLearntIsSavedAndLoaded) {
   solve::NewtonConvergence learnt, loaded, knows_nothing;
   learnt.is_at_rounding(0, 1, of_rounding, false, false);

@@ -24,10 +24,13 @@ public:
   void archive(Archive& archive);
 
 private:
+  void note_curvature(double norm, double previous, double noise);
+
   double previous_norm_ = 0;
   double contraction_ = 0;
   double rate_ = 1;                                              ///< of a kept tangent's linear convergence
   double curvature_ = std::numeric_limits<double>::infinity();   ///< of Newton's quadratic convergence [1/N]
+  bool has_seen_curvature_ = false;                              ///< in a residual above rounding
 };
 
 }   // namespace cablenet::solve
