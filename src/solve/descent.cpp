@@ -15,7 +15,7 @@ using system::StaticRule;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// The softest cables' EA over the total load, and how much stiffer they become from stage to stage.
-constexpr double softest = 3, hardening = 20;
+constexpr double softest = 3, hardening = 10;
 
 /// The residual over the loads at which a stage of soft cables ends, and its iterations at most.
 constexpr double rough = 0.3;
