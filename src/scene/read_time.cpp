@@ -13,7 +13,7 @@ namespace {
 
 constexpr double most_steps = 2147483647;
 /// Of energy_momentum, and the radius of the others.
-constexpr double default_dissipation = 0.006, default_radius = 0.8;
+constexpr double default_dissipation = 0.0053, default_radius = 0.8;
 
 struct AdaptiveKeys {
   double tolerance = 0;

@@ -11,7 +11,7 @@ namespace cablenet::solve {
 const OwnOption axial_dissipation_option{
     {"-cable_axial_dissipation", "energy_momentum: how much energy it removes from axial vibration"},
     "a number from 0 to 0.5",
-    "0.006; 0 where the scene asks for a radius of 1, or names the scheme without a radius"};
+    "0.0053; 0 where the scene asks for a radius of 1, or names the scheme without a radius"};
 
 const OwnOption tangent_option{
     {"-cable_tangent", "exact, or secant: the tangent without geometric stiffness, for comparison"},

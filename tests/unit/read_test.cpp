@@ -221,7 +221,7 @@ TEST(Read, SchemeDefaults) {
   const Time none = with_time("end: 1, step: 0.1").time;
   EXPECT_EQ(none.scheme, Scheme::energy_momentum);
   EXPECT_EQ(none.spectral_radius, 1);
-  EXPECT_EQ(none.axial_dissipation, 0.006);
+  EXPECT_EQ(none.axial_dissipation, 0.0053);
   const Time named = with_time("end: 1, step: 0.1, scheme: energy_momentum").time;
   EXPECT_EQ(named.scheme, Scheme::energy_momentum);
   EXPECT_EQ(named.spectral_radius, 1);
@@ -230,7 +230,7 @@ TEST(Read, SchemeDefaults) {
     const Time radius = with_time(std::string("end: 1, step: 0.1, spectral_radius: 0.3") + scheme).time;
     EXPECT_EQ(radius.scheme, Scheme::energy_momentum);
     EXPECT_EQ(radius.spectral_radius, 0.3);
-    EXPECT_EQ(radius.axial_dissipation, 0.006);
+    EXPECT_EQ(radius.axial_dissipation, 0.0053);
   }
   EXPECT_EQ(with_time("end: 1, step: 0.1, spectral_radius: 1").time.axial_dissipation, 0);
   EXPECT_EQ(with_time("end: 1, step: 0.1, scheme: generalized_alpha").time.spectral_radius, 0.8);
