@@ -38,6 +38,8 @@ constexpr double steady_part = 0.1, steady_window = 1;
 constexpr const char* statics_advice =
     "See that every part hangs on something fixed or afloat; try shape: catenary or a drawn shape that is nearer, or "
     "let the scene settle in time with axial_damping";
+constexpr const char* slack_advice =
+    "There is an equilibrium if no cable pushes: give the cable types tension_only: true";
 
 class Simulation {
 public:
@@ -134,7 +136,8 @@ private:
     finish_output();
     report_.scheme = "static";
     report_.linear_solver = statics_->linear_solver();
-    return conclude(found ? solve::Verdict::finished : solve::Verdict::failed, statics_advice);
+    return conclude(found ? solve::Verdict::finished : solve::Verdict::failed,
+                    statics_->is_there_without_pushing() ? slack_advice : statics_advice);
   }
 
   int run_dynamics() {

@@ -33,6 +33,8 @@ constexpr StringStage string_stages[] = {{1, 0.5, 4}, {3, 0.25, 20}, {9, 0.1, 20
 
 /// The residual over the loads at which a descent ends for Newton's method, again and again where that does not arrive.
 constexpr double descent_goals[] = {1e-3, 1e-6, 1e-8, 1e-10};
+/// In a flow it ends much sooner for the first time: Newton's method knows how drag turns, and a descent does not.
+constexpr double goal_in_flow = 0.02;
 constexpr int most_after_descent = 40;
 
 /// How far nodes move to leave a saddle, over the length of the shortest element there.  Attitudes change as much.
@@ -119,6 +121,7 @@ bool Statics::go_down() {
   check(VecCopy(drawn_, x_));
   const bool found = descend(true);
   if (!may_push_ || (found && is_taut())) return found && (!is_unstable() || leave_saddle());
+  is_there_without_pushing_ = found;
   disturb();
   return descend(false) && (!is_unstable() || leave_saddle());
 }
@@ -128,7 +131,9 @@ bool Statics::descend(bool never_pushes) {
   Descent descent({assembler_, forces_, newton_.tangent(), newton_.ksp(), newton_.linear(), progress_}, never_pushes);
   const system::Vector lowest = assembler_.make_vector();
   descent.soften(x_);
-  for (const double goal : descent_goals) {
+  std::vector<double> goals(std::begin(descent_goals), std::end(descent_goals));
+  if (forces_.is_in_flow()) goals.insert(goals.begin(), goal_in_flow);
+  for (const double goal : goals) {
     const bool is_near = descent.go_on(x_, goal);
     check(VecCopy(x_, lowest));
     const StaticRule exact{.kind = StaticRule::Kind::exact, .never_pushes = never_pushes};

@@ -53,6 +53,8 @@ public:
   /// As StaticForces::on_bed().
   std::vector<std::pair<int, double>> on_bed() { return forces_.on_bed(x_); }
   const std::string& failure() const { return failure_; }
+  /// If no cable could push, there would be an equilibrium.  It was found where solve() found none.
+  bool is_there_without_pushing() const { return is_there_without_pushing_; }
   FailedPart failed_part();
   std::string linear_solver() const { return newton_.linear().describe(); }
 
@@ -79,7 +81,7 @@ private:
   system::Vector x_, drawn_, trial_;
   StaticNewton newton_;
   double largest_load_ = 0, imbalance_ = 0;
-  bool ends_by_rounding_ = false;
+  bool ends_by_rounding_ = false, is_there_without_pushing_ = false;
   PetscReal largest_drawn_load_ = 0;   ///< on a node [N]
   std::string failure_;
 };
