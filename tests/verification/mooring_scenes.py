@@ -42,6 +42,11 @@ class Mooring:
                 f"depth {self.depth:.0f}, reach {self.reach:.0f}, bed {self.bed:.1e}, "
                 f"{'ropes' if self.tension_only else 'bars'}{', current' if self.current else ''}")
 
+    @property
+    def is_convex(self):
+        """Cables hang from what is fixed, or from a buoy, in still water: one least energy, whatever is drawn."""
+        return self.holder != "body" and not self.current
+
     def fairlead(self, i):
         """Where line i ends as drawn.  It is 3 m below the surface."""
         angle = self.turn + 2 * np.pi * i / self.lines
