@@ -8,6 +8,9 @@
 namespace cablenet::app {
 namespace {
 
+/// What the step's formulas may take of the energy that moves before it is worth a note.
+constexpr double most_dissipated = 0.1;
+
 bool is_damped(const scene::CableType& type) {
   return type.axial_damping > 0 || type.rayleigh_mass > 0 || type.rayleigh_stiffness > 0;
 }
@@ -36,6 +39,16 @@ std::string describe(const EnergyReport& report) {
   if (report.is_wet) text += ", " + taken("water", now.water, moved);
   if (report.has_bed) text += ", " + taken("the bed", now.bed, moved);
   return text + fmt::format("; the balance closes to {:.2g}", share(imbalance, moved));
+}
+
+std::string note_of_dissipation(const EnergyReport& report) {
+  const double taken = share(report.energy.now.dissipated, report.energy.moved);
+  if (taken <= most_dissipated) return {};
+  return fmt::format(
+      "the step's formulas took {:.2g} % of the energy that moved: where that was motion, it is gone; shorter steps "
+      "take "
+      "less, and so does a larger time.spectral_radius",
+      100 * taken);
 }
 
 std::string describe_gain(const EnergyReport& report) {

@@ -162,6 +162,7 @@ private:
     if (const system::EnergySummary* const energy = assembler_->energy_summary()) {
       report_.energy.emplace(*energy, scene_);
       if (rank_ == 0) fmt::print("{}\n", describe(*report_.energy));
+      note(note_of_dissipation(*report_.energy));
     }
     for (const std::string& text : tension_notes(scene_, network_, *assembler_)) note(text);
     if (const auto steps = dynamics_->step_findings())

@@ -125,6 +125,13 @@ def long_steps(given):
         near(float(step), 0.3, 0.2, f"the step for 0.1 % on {ranks} ranks")
 
 
+def dissipation(given):
+    took = r"^the step's formulas took (\S+) % of the energy that moved.*shorter steps take less"
+    [[percent]] = only(given, NOTED / "bungee.yaml", [took], ranks=(1, 2))
+    near(float(percent), 57, 0.1, "percent of the energy at radius 0")
+    only(given, NOTED / "bungee.yaml", [], "-ts_dt", "0.001", ranks=(1,))
+
+
 def rejected(given):
     for ranks in (1, 3):
         said = notes(given, NOTED / "rejected.yaml", ranks=ranks, status=3)
@@ -137,7 +144,7 @@ def rejected(given):
 
 def main():
     given = arguments(__doc__)
-    for case in (pushes, folding, peaks, long_steps, rejected):
+    for case in (pushes, folding, peaks, long_steps, dissipation, rejected):
         case(given)
     print(f"{len(failures)} failures")
     return 1 if failures else 0

@@ -17,6 +17,9 @@ struct EnergyReport {
 /// "energy: 12.3 J moved; damping took 3.1 J (25 %), ...; the balance closes to 1.2e-12".
 std::string describe(const EnergyReport& report);
 
+/// "the step's formulas took 57 % of the energy that moved; ...", or nothing where they took little.
+std::string note_of_dissipation(const EnergyReport& report);
+
 /// "the step's formulas have brought in 12.3 J from nowhere, 5.4 % of what the run moves".
 std::string describe_gain(const EnergyReport& report);
 
