@@ -15,6 +15,7 @@
 #include "cablenet/base/errors.hpp"
 #include "cablenet/base/floating_point.hpp"
 #include "cablenet/network/build.hpp"
+#include "cablenet/network/drawn_notes.hpp"
 #include "cablenet/petsc/options.hpp"
 #include "cablenet/petsc/session.hpp"
 #include "cablenet/scene/read.hpp"
@@ -76,7 +77,9 @@ scene::Scene load_scene(const std::string& path) {
 int check_scene(const CommandLine& line) {
   const scene::Scene scene = load_scene(line.scene);
   const network::Network network = network::build_network(scene);
-  if (this_rank() == 0) fmt::print("{}: valid: {}\n", line.scene, describe(scene, network));
+  if (this_rank() != 0) return 0;
+  for (const std::string& note : network::drawn_notes(scene, network)) fmt::print(stderr, "cablenet: note: {}\n", note);
+  fmt::print("{}: valid: {}\n", line.scene, describe(scene, network));
   return 0;
 }
 

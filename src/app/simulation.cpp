@@ -9,6 +9,7 @@
 #include "cablenet/app/run_notes.hpp"
 #include "cablenet/base/errors.hpp"
 #include "cablenet/network/build.hpp"
+#include "cablenet/network/drawn_notes.hpp"
 #include "cablenet/output/frames.hpp"
 #include "cablenet/output/probes.hpp"
 #include "cablenet/petsc/solver_types.hpp"
@@ -58,6 +59,7 @@ public:
   }
 
   int run() {
+    for (const std::string& text : network::drawn_notes(scene_, network_)) note(text);
     open_output();
     watch_.lap(set_up_);
     if (scene_.starts_static && !find_equilibrium()) return conclude_statics(false);

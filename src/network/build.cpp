@@ -8,6 +8,7 @@
 
 #include "bodies.hpp"
 #include "cablenet/base/errors.hpp"
+#include "cablenet/network/hanging.hpp"
 #include "cablenet/network/shape.hpp"
 
 namespace cablenet::network {
@@ -190,7 +191,8 @@ void Builder::place_cable(std::size_t index, const Vector3& a, const Vector3& b)
   const std::vector<double>& arcs = arcs_[index];
   std::vector<Vector3> points;
   if (cable.shape == scene::Shape::straight) points = straight_shape(a, b, arcs);
-  if (cable.shape == scene::Shape::catenary) points = catenary_shape(a, b, arcs);
+  if (cable.shape == scene::Shape::catenary)
+    points = catenary_shape(a, b, arcs, hanging_of(scene_, scene_.cable_types[at(cable.type)], a, b));
   if (cable.shape == scene::Shape::polyline) {
     points = polyline_shape(cable.polyline, arcs);
     const double miss = std::max((points.front() - a).norm(), (points.back() - b).norm());

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "cablenet/base/errors.hpp"
@@ -52,31 +51,6 @@ std::vector<int> share_out(const std::vector<double>& stretches, double L, int e
   return count;
 }
 
-/// Solves sinh(u)/u = ratio > 1 for u > 0.  Newton's method on log(sinh(u)/u) starts above the solution.
-double catenary_parameter(double ratio) {
-  double u = ratio < 3 ? std::sqrt(6 * (ratio - 1)) : std::log(2 * ratio) + std::log(std::log(2 * ratio));
-  for (int i = 0; i < 60; ++i) {
-    const double g = u + std::log1p(-std::exp(-2 * u)) - std::log(2 * u) - std::log(ratio);
-    const double slope = 1 / std::tanh(u) - 1 / u;
-    const double next = std::max(u - g / slope, 0.1 * u);
-    if (std::abs(next - u) <= 1e-15 * u) return next;
-    u = next;
-  }
-  return u;
-}
-
-/// A point of a cable whose ends lie (nearly) above one another.  The cable goes down and up again.  One leg is bent
-/// towards x and the other towards y, so that no two nodes coincide.
-Vector3 hairpin_point(const Vector3& a, const Vector3& b, double L, double s) {
-  const double down = 0.5 * (L - (b.z() - a.z()));
-  const bool first_leg = s < down;
-  Vector3 p = a + (b - a) * (s / L);
-  p.z() = a.z() - (first_leg ? s : 2 * down - s);
-  const double along = first_leg ? s / down : (s - down) / (L - down);
-  p[first_leg ? 0 : 1] += 1e-3 * L * std::sin(std::numbers::pi * along);
-  return p;
-}
-
 }   // namespace
 
 std::vector<double> node_arcs(double L, int elements, std::vector<double> taps) {
@@ -104,28 +78,6 @@ std::vector<Vector3> straight_shape(const Vector3& a, const Vector3& b, const st
   std::vector<Vector3> points;
   points.reserve(arcs.size());
   for (const double s : arcs) points.push_back(a + (b - a) * (s / arcs.back()));
-  return points;
-}
-
-std::vector<Vector3> catenary_shape(const Vector3& a, const Vector3& b, const std::vector<double>& arcs) {
-  const double L = arcs.back();
-  const Vector3 span = b - a;
-  if (L <= span.norm() * (1 + 1e-11)) return straight_shape(a, b, arcs);
-  const double h = std::hypot(span.x(), span.y());
-  std::vector<Vector3> points;
-  points.reserve(arcs.size());
-  if (h < 1e-2 * L) {
-    for (const double s : arcs) points.push_back(hairpin_point(a, b, L, s));
-    return points;
-  }
-  const double u = catenary_parameter(std::sqrt(L * L - span.z() * span.z()) / h);
-  const double A = h / (2 * u);   // horizontal force / weight per length
-  const double x0 = h / 2 - A * std::atanh(span.z() / L);
-  const Vector3 along(span.x() / h, span.y() / h, 0);
-  for (const double s : arcs) {
-    const double x = x0 + A * std::asinh(s / A - std::sinh(x0 / A));
-    points.push_back(a + along * x + Vector3(0, 0, A * (std::cosh((x - x0) / A) - std::cosh(x0 / A))));
-  }
   return points;
 }
 

@@ -116,7 +116,10 @@ const Table<CableKeys> cable_table(
       &CableKeys::length},
      {"elements", integer(1), required, "How many elements the cable is divided into.", &CableKeys::elements},
      {"shape", later(shape_form()), absent("straight"),
-      "How the cable is drawn; nodes lie on a polyline evenly by length, or at its points where it has elements + 1.",
+      "How the cable is drawn: straight; catenary, as it hangs without stretch, upwards where it floats, and lying on "
+      "the "
+      "bed or afloat where it reaches that; or along a polyline, evenly by length, or at its points where it has "
+      "elements + 1.",
       &CableKeys::given_shape},
      {"node_velocity",
       later(list_form("a list of rows [u, v, w] [m/s], one per node (elements + 1)", vector("m/s").form, 2)),

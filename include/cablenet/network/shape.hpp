@@ -19,10 +19,6 @@ int node_at(const std::vector<double>& arcs, double at);
 /// Points on the straight line a-b at the fractions arcs/L.
 std::vector<Vector3> straight_shape(const Vector3& a, const Vector3& b, const std::vector<double>& arcs);
 
-/// Points at the arc lengths `arcs` of the inextensible catenary of length L between a and b.  Where L <= |b - a| the
-/// curve is the straight line, and where a and b lie nearly above one another it is a hairpin.
-std::vector<Vector3> catenary_shape(const Vector3& a, const Vector3& b, const std::vector<double>& arcs);
-
 /// Points on a polyline at the fractions arcs/L of its drawn length.  If the polyline has one point per node, these are
 /// the points.
 std::vector<Vector3> polyline_shape(const std::vector<Vector3>& polyline, const std::vector<double>& arcs);

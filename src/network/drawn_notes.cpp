@@ -1,0 +1,152 @@
+#include "cablenet/network/drawn_notes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace cablenet::network {
+namespace {
+
+/// The strain from which on a cable is drawn much stretched.
+constexpr double much = 0.05;
+
+/// What is less deep than this passes for lying on the bed: so many times the smoothing, or of the diameter.
+constexpr double smoothings = 10, diameters = 0.1;
+
+/// How far a span's nodes lie inside the bed.
+struct Buried {
+  double depth = 0;   ///< [m]
+  int nodes = 0;
+};
+
+/// A span's element that is drawn stretched most.
+struct Stretched {
+  double strain = 0;
+  int element = 0;   ///< of the span, from 0
+};
+
+/// The worst of all spans speaks for the others.
+template <class Found, class Measure>
+std::string others(const std::vector<Found>& all, Measure measure, double least, const char* what) {
+  const auto count = std::count_if(all.begin(), all.end(), [&](const Found& one) { return measure(one) > least; });
+  return count > 1 ? fmt::format("; so {} {} more", count > 2 ? fmt::format("are {}", count - 1) : "is 1", what) : "";
+}
+
+class DrawnNotes {
+public:
+  DrawnNotes(const scene::Scene& scene, const Network& network)
+      : scene_(scene), network_(network), is_held_(network.position.size(), false) {
+    for (const PrescribedNode& held : network.prescribed) is_held_[held.node] = true;
+  }
+
+  std::string of_bed() const {
+    if (!scene_.bed || scene_.starts_static) return {};
+    std::vector<Buried> all;
+    for (const Span& span : network_.spans) all.push_back(buried(span));
+    const auto depth = [](const Buried& one) { return one.depth; };
+    const auto worst =
+        std::max_element(all.begin(), all.end(), [](const Buried& a, const Buried& b) { return a.depth < b.depth; });
+    if (worst == all.end() || worst->depth == 0) return {};
+    const auto index = static_cast<std::size_t>(worst - all.begin());
+    const bool is_cable = index < scene_.cables.size();
+    const bool is_catenary = is_cable && scene_.cables[index].shape == scene::Shape::catenary;
+    return fmt::format(
+        "{}: it is drawn inside the bed with {} of its nodes, by up to {:.3g} m, which throws them out at the start{}. "
+        "Draw it above environment.seabed.level{}, or start from initial: static.",
+        place(index), worst->nodes, worst->depth, others(all, depth, 0, "of the scene's cables and nets"),
+        is_cable && !is_catenary ? ", as shape: catenary does" : "");
+  }
+
+  std::string of_stretch() const {
+    std::vector<Stretched> all;
+    for (std::size_t i = 0; i < scene_.cables.size(); ++i) all.push_back(stretched(i));
+    const auto strain = [](const Stretched& one) { return one.strain; };
+    const auto worst = std::max_element(all.begin(), all.end(),
+                                        [](const Stretched& a, const Stretched& b) { return a.strain < b.strain; });
+    if (worst == all.end() || !(worst->strain > much)) return {};
+    const auto index = static_cast<std::size_t>(worst - all.begin());
+    const Span& span = network_.spans[index];
+    const Element& element = network_.elements[at(span.first_element + worst->element)];
+    return fmt::format(
+        "{}: it is drawn {:.3g} % stretched in its element {} of {}, which pulls with {:.3g} N{}. Its chords are "
+        "{:.6g} m "
+        "long in all, and length is {:.6g} m: correct one of them.",
+        place(index), 100 * worst->strain, worst->element + 1, span.elements,
+        worst->strain * network_.materials[at(element.material)].axial_stiffness,
+        others(all, strain, much, "of the scene's cables"), drawn_length(span), unstretched_length(span));
+  }
+
+private:
+  std::string place(std::size_t span) const {
+    if (span < scene_.cables.size())
+      return fmt::format("{}: cables.{}", scene_.cables[span].where, scene_.cables[span].name);
+    const scene::Net& net = scene_.nets[span - scene_.cables.size()];
+    return fmt::format("{}: nets.{}", net.where, net.name);
+  }
+
+  double drawn(const Element& e) const { return (network_.position[e.node[1]] - network_.position[e.node[0]]).norm(); }
+
+  Buried buried(const Span& span) const {
+    double deepest = 0;
+    std::vector<SceneNode> nodes;
+    for (int i = 0; i < span.elements; ++i) {
+      const Element& element = network_.elements[at(span.first_element + i)];
+      const CableOnBed& on_bed = network_.surroundings.on_bed[at(element.material)];
+      const double slight = std::max(smoothings * on_bed.smoothing, diameters * on_bed.diameter);
+      for (const SceneNode node : element.node) {
+        const double depth = scene_.bed->level - network_.position[node].z();
+        if (is_held_[node] || depth <= slight) continue;
+        deepest = std::max(deepest, depth);
+        nodes.push_back(node);
+      }
+    }
+    std::sort(nodes.begin(), nodes.end());
+    return {deepest, static_cast<int>(std::unique(nodes.begin(), nodes.end()) - nodes.begin())};
+  }
+
+  Stretched stretched(std::size_t cable) const {
+    const Span& span = network_.spans[cable];
+    const Element& first = network_.elements[at(span.first_element)];
+    const Element& last = network_.elements[at(span.first_element + span.elements - 1)];
+    if (scene_.starts_static) {
+      const double way = (network_.position[last.node[1]] - network_.position[first.node[0]]).norm();
+      const bool is_between = is_held_[first.node[0]] && is_held_[last.node[1]];
+      if (!is_between || way <= (1 + much) * unstretched_length(span)) return {};
+    }
+    Stretched found;
+    for (int i = 0; i < span.elements; ++i) {
+      const Element& element = network_.elements[at(span.first_element + i)];
+      const double strain = drawn(element) / element.length - 1;
+      if (strain > found.strain) found = {strain, i};
+    }
+    return found;
+  }
+
+  double drawn_length(const Span& span) const {
+    double sum = 0;
+    for (int i = 0; i < span.elements; ++i) sum += drawn(network_.elements[at(span.first_element + i)]);
+    return sum;
+  }
+
+  double unstretched_length(const Span& span) const {
+    double sum = 0;
+    for (int i = 0; i < span.elements; ++i) sum += network_.elements[at(span.first_element + i)].length;
+    return sum;
+  }
+
+  const scene::Scene& scene_;
+  const Network& network_;
+  Table<SceneNode, bool> is_held_;
+};
+
+}   // namespace
+
+std::vector<std::string> drawn_notes(const scene::Scene& scene, const Network& network) {
+  const DrawnNotes notes(scene, network);
+  std::vector<std::string> found;
+  for (std::string note : {notes.of_bed(), notes.of_stretch()})
+    if (!note.empty()) found.push_back(std::move(note));
+  return found;
+}
+
+}   // namespace cablenet::network
