@@ -6,9 +6,7 @@
 #include <xxhash.h>
 #include <yaml-cpp/yaml.h>
 
-#include <fstream>
-
-#include "cablenet/base/errors.hpp"
+#include "text_file.hpp"
 
 namespace cablenet::app {
 namespace {
@@ -72,8 +70,26 @@ void emit_energy(YAML::Emitter& yaml, const EnergyReport& report) {
   yaml << YAML::EndMap;
 }
 
+void emit_stiffness(YAML::Emitter& yaml, const std::vector<NamedStiffness>& all) {
+  yaml << YAML::Key << "stiffness" << YAML::Value << YAML::BeginMap;
+  yaml << YAML::Key << "rows_by_columns" << YAML::Value
+       << "force x y z [N], moment x y z [N m] by displacement x y z [m], rotation x y z [rad]";
+  yaml << YAML::Key << "of" << YAML::Value << YAML::BeginMap;
+  for (const auto& [name, matrix] : all) {
+    yaml << YAML::Key << name << YAML::Value << YAML::BeginSeq;
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+      yaml << YAML::Flow << YAML::BeginSeq;
+      for (Eigen::Index j = 0; j < matrix.cols(); ++j) yaml << fmt::format("{:.17g}", matrix(i, j));
+      yaml << YAML::EndSeq;
+    }
+    yaml << YAML::EndSeq;
+  }
+  yaml << YAML::EndMap << YAML::EndMap;
+}
+
 void emit_solution(YAML::Emitter& yaml, const Report& report) {
   if (report.statics) emit_statics(yaml, *report.statics);
+  if (!report.stiffness.empty()) emit_stiffness(yaml, report.stiffness);
   yaml << YAML::Key << "scheme" << YAML::Value << report.scheme;
   yaml << YAML::Key << "linear_solver" << YAML::Value << report.linear_solver;
   yaml << YAML::Key << "steps" << YAML::Value << report.counts.steps;
@@ -85,17 +101,21 @@ void emit_solution(YAML::Emitter& yaml, const Report& report) {
   emit_seconds(yaml, "cpu_seconds", report.phases, &Report::Phase::cpu);
 }
 
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  const std::filesystem::path part = path.string() + ".tmp";
-  std::ofstream file(part);
-  file << text << '\n';
-  file.close();
-  std::error_code problem;
-  if (file) std::filesystem::rename(part, path, problem);
-  if (!file || problem) throw OutputError(fmt::format("{} cannot be written", path.string()));
+}   // namespace
+
+void tell(const std::string& text) {
+  int rank = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  if (rank == 0) fmt::print("{}\n", text);
 }
 
-}   // namespace
+void add_note(Report& report, const std::string& text) {
+  if (text.empty()) return;
+  int rank = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  if (rank == 0) fmt::print(stderr, "cablenet: note: {}\n", text);
+  report.notes.push_back(text);
+}
 
 std::string scene_hash(const scene::Scene& scene) {
   const XXH128_hash_t hash = XXH3_128bits(scene.text.data(), scene.text.size());
@@ -144,17 +164,7 @@ void write_report(const std::filesystem::path& path, const scene::Scene& scene, 
   yaml << YAML::Key << "largest_rank" << YAML::Value << fmt::format("{:.1f}", memory_most) << YAML::EndMap
        << YAML::EndMap;
 
-  int rank = 0, failed = 0;
-  MPI_Comm_rank(communicator, &rank);
-  std::string problem;
-  if (rank == 0) try {
-      write_text(path, yaml.c_str());
-    } catch (const OutputError& error) {
-      problem = error.what();
-      failed = 1;
-    }
-  MPI_Bcast(&failed, 1, MPI_INT, 0, communicator);
-  if (failed) throw OutputError(problem);
+  write_text_file(path, std::string(yaml.c_str()) + "\n", communicator);
 }
 
 }   // namespace cablenet::app

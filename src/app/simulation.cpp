@@ -16,10 +16,10 @@
 #include "cablenet/solve/energy_watch.hpp"
 #include "cablenet/solve/relaxation.hpp"
 #include "cablenet/solve/scheme.hpp"
-#include "cablenet/solve/statics.hpp"
 #include "choices.hpp"
-#include "static_notes.hpp"
+#include "equilibrium.hpp"
 #include "stopwatch.hpp"
+#include "text_file.hpp"
 
 namespace cablenet::app {
 namespace {
@@ -31,16 +31,6 @@ Report::Phase slowest(Report::Phase phase) {
   MPI_Allreduce(MPI_IN_PLACE, &phase.cpu, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
   return phase;
 }
-
-/// A static start moves with the tow points.  For so long their velocity is looked at: this part of the run, or so many
-/// seconds where there is no run.
-constexpr double steady_part = 0.1, steady_window = 1;
-
-constexpr const char* statics_advice =
-    "See that every part hangs on something fixed or afloat; try shape: catenary or a drawn shape that is nearer, or "
-    "let the scene settle in time with axial_damping";
-constexpr const char* slack_advice =
-    "There is an equilibrium if no cable pushes: give the cable types tension_only: true";
 
 class Simulation {
 public:
@@ -59,7 +49,7 @@ public:
   }
 
   int run() {
-    for (const std::string& text : network::drawn_notes(scene_, network_)) note(text);
+    for (const std::string& text : network::drawn_notes(scene_, network_)) add_note(report_, text);
     open_output();
     watch_.lap(set_up_);
     if (scene_.starts_static && !find_equilibrium()) return conclude_statics(false);
@@ -77,10 +67,8 @@ private:
   }
 
   void set_up_statics() {
-    const double window = time_.end > time_.start ? steady_part * (time_.end - time_.start) : steady_window;
-    frame_ = solve::StaticForces::frame_velocity(*assembler_, time_.start, window);
-    statics_.emplace(*assembler_, time_.start, frame_);
-    introduce(fmt::format("statics, {}", statics_->linear_solver()));
+    equilibrium_.emplace(scene_, time_, *assembler_);
+    introduce(fmt::format("statics, {}", equilibrium_->linear_solver()));
   }
 
   void set_up_dynamics() {
@@ -101,7 +89,7 @@ private:
     int failed = 0;
     std::string problem;
     if (rank_ == 0) try {
-        std::filesystem::remove(directory_ / "run.yaml");
+        for (const char* name : {"run.yaml", "stiffness.csv"}) std::filesystem::remove(directory_ / name);
         history_.emplace(directory_ / "history.csv", probes_->columns());
       } catch (const std::exception& error) {
         failed = 1;
@@ -111,41 +99,28 @@ private:
     if (failed) throw OutputError(problem);
   }
 
-  /// @returns whether there is one; `statics_` keeps it until the run goes on from it
   bool find_equilibrium() {
-    const bool found = statics_->solve();
-    watch_.lap(equilibrium_);
-    report_.statics = {frame_, statics_->imbalance(), statics_->largest_load(), statics_->iterations(),
-                       statics_->ends_by_rounding()};
-    if (rank_ == 0 && found) fmt::print("{}\n", describe(*report_.statics));
-    if (found && statics_->is_unstable()) note("the equilibrium is not stable: a disturbance would leave it");
-    if (found) note(note_of_pushing(network_, statics_->pushing(), PETSC_COMM_WORLD));
-    if (found) note(note_of_touchdown(network_, statics_->on_bed(), PETSC_COMM_WORLD));
+    const bool found = equilibrium_->find(network_, report_);
+    if (!report_.stiffness.empty())
+      write_text_file(directory_ / "stiffness.csv", stiffness_table(report_.stiffness), PETSC_COMM_WORLD);
+    watch_.lap(statics_);
     return found;
   }
 
   /// Writes the equilibrium, or the best shape on the way to it.
   int conclude_statics(bool found) {
-    if (!found)
-      report_.message = fmt::format(
-          "no equilibrium was found: {}; the largest unbalanced force is {:.3g} of the largest "
-          "load on a node, near {}",
-          statics_->failure(), statics_->imbalance(), name_of(statics_->failed_part()));
     const system::Vector x = assembler_->make_vector(), v = assembler_->make_vector(), a = assembler_->make_vector();
-    statics_->make_start();
     assembler_->fill_initial(x, v);
     write({time_.start, 0, x, v, a});
     finish_output();
     report_.scheme = "static";
-    report_.linear_solver = statics_->linear_solver();
-    return conclude(found ? solve::Verdict::finished : solve::Verdict::failed,
-                    statics_->is_there_without_pushing() ? slack_advice : statics_advice);
+    report_.linear_solver = equilibrium_->linear_solver();
+    return conclude(found ? solve::Verdict::finished : solve::Verdict::failed, equilibrium_->advice());
   }
 
   int run_dynamics() {
-    if (statics_) {
-      statics_->make_start();
-      statics_.reset();
+    if (equilibrium_) {
+      equilibrium_.reset();
       set_up_dynamics();
       watch_.lap(set_up_);
     }
@@ -164,22 +139,16 @@ private:
     if (const system::EnergySummary* const energy = assembler_->energy_summary()) {
       report_.energy.emplace(*energy, scene_);
       if (rank_ == 0) fmt::print("{}\n", describe(*report_.energy));
-      note(note_of_dissipation(*report_.energy));
+      add_note(report_, note_of_dissipation(*report_.energy));
     }
-    for (const std::string& text : tension_notes(scene_, network_, *assembler_)) note(text);
+    for (const std::string& text : tension_notes(scene_, network_, *assembler_)) add_note(report_, text);
     if (const auto steps = dynamics_->step_findings())
-      for (const std::string& text : step_notes(*steps, report_.counts)) note(text);
+      for (const std::string& text : step_notes(*steps, report_.counts)) add_note(report_, text);
     if (dynamics_->has_gained_energy())
       report_.message = fmt::format("at t = {:.9g} s {}", report_.reached, describe_gain(*report_.energy));
     else if (verdict == solve::Verdict::failed)
       report_.message = fmt::format("at t = {:.9g} s the solver could not go on {}", report_.reached, explanation());
     return conclude(verdict, verdict == solve::Verdict::failed ? advice() : "");
-  }
-
-  void note(const std::string& text) {
-    if (text.empty()) return;
-    if (rank_ == 0) fmt::print(stderr, "cablenet: note: {}\n", text);
-    report_.notes.push_back(text);
   }
 
   void write(const solve::Instant& instant) {
@@ -218,7 +187,7 @@ private:
     report_.status = "finished";
     if (verdict == solve::Verdict::stopped) report_.status = "stopped";
     if (verdict == solve::Verdict::failed) report_.status = "failed";
-    for (const auto& phase : {set_up_, equilibrium_, solving_, writing_}) report_.phases.push_back(slowest(phase));
+    for (const auto& phase : {set_up_, statics_, solving_, writing_}) report_.phases.push_back(slowest(phase));
     write_report(directory_ / "run.yaml", scene_, network_, partition_, report_, PETSC_COMM_WORLD);
     if (rank_ == 0) fmt::print("results in {}: open {} in ParaView\n", directory_.string(), indexes());
     if (verdict != solve::Verdict::failed) return 0;
@@ -237,11 +206,6 @@ private:
   bool is_singular_attitude() const {
     return failed_.left_domain &&
            network_.bodies[static_cast<std::size_t>(failed_.body)].properties.rotation == bodies::Rotation::euler;
-  }
-
-  std::string name_of(const solve::FailedPart& failed) const {
-    if (failed.body < 0) return fmt::format("cable {}", network_.element_name(failed.element));
-    return fmt::format("body {}", network_.bodies[static_cast<std::size_t>(failed.body)].name);
   }
 
   /// Where and why the solver could not go on.
@@ -273,8 +237,7 @@ private:
   int rank_ = 0;
   int ranks_ = 1;
   std::optional<system::Assembler> assembler_;
-  Vector3 frame_ = Vector3::Zero();         ///< in which statics is at rest [m/s]
-  std::optional<solve::Statics> statics_;   ///< until the run goes on from it
+  std::optional<Equilibrium> equilibrium_;   ///< until the run goes on from it
   std::optional<solve::Dynamics> dynamics_;
   std::optional<output::Frames> frames_;
   std::optional<output::Probes> probes_;
@@ -283,7 +246,7 @@ private:
   Report report_;
   solve::FailedPart failed_;
   Report::Phase set_up_{"set_up"};
-  Report::Phase equilibrium_{"statics"};
+  Report::Phase statics_{"statics"};
   Report::Phase solving_{"solve"};
   Report::Phase writing_{"output"};
 };

@@ -5,6 +5,7 @@
 #include <unsupported/Eigen/AutoDiff>
 
 #include "cablenet/bodies/euler.hpp"
+#include "cablenet/bodies/small_turn.hpp"
 #include "conserving.hpp"
 
 namespace cablenet::bodies {
@@ -169,6 +170,14 @@ Quaternion attitude(const Properties& body, const Vector4& y) {
   if (body.rotation == Rotation::quaternion) return Quaternion(y(0), y(1), y(2), y(3)).normalized();
   if (body.rotation == Rotation::none) return body.attitude;
   return by_angles(y.head<3>());
+}
+
+Eigen::Matrix<double, 4, 3> small_turn(const Properties& body, const Vector4& y) {
+  const Quaternion now = attitude(body, y);
+  const Matrix3 to_body = now.toRotationMatrix().transpose();
+  Eigen::Matrix<double, 4, 3> columns;
+  for (int i = 0; i < 3; ++i) columns.col(i) = rotation_state(body.rotation, now, to_body.col(i)).dy;
+  return columns;
 }
 
 Vector3 angular_velocity(Rotation rotation, const RotationState& state) {

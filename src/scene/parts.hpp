@@ -64,8 +64,8 @@ Form output_form();
 /// Puts gravity, fluid and bed into the scene.
 void read_environment(const Value&, Scene&);
 Time read_time(const Value&);
-/// @pre the scene's time is read.
-Output read_output(const std::optional<Value>&, const Time&, const SceneNames&);
+/// @pre the scene's time is read, and whether it starts from an equilibrium.
+Output read_output(const std::optional<Value>&, const Scene&, const SceneNames&);
 /// @pre the scene's environment is read.
 std::vector<CableType> read_cable_types(const Value&, const Scene&, Names& types);
 std::vector<PointDraft> read_points(const Value&, const Time&);

@@ -106,7 +106,7 @@ Scene read_scene(const std::string& text, const std::string& file) {
   scene.bodies = expand_bodies(bodies, names.bodies);
   scene.cables = expand_cables(cables, scene, names);
   check_ends(cables, points, scene);
-  scene.output = read_output(keys.output, scene.time, names);
+  scene.output = read_output(keys.output, scene, names);
   scene.notes = water_notes(top, points, bodies, scene);
   add_body_notes(bodies, cables, scene);
   add_force_notes(points, scene);

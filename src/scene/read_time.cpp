@@ -74,9 +74,12 @@ void check_steps(const Section& section, const Time& time) {
 const std::string history_expected = "a list of names of points, bodies and cables";
 const std::string history_item = "a name of a point, a body or a cable; one with brackets in quotes";
 
+const std::string stiffness_expected = "a list of names of points and bodies";
+const std::string stiffness_item = "a name of a point or a body; one with brackets in quotes";
+
 struct OutputKeys : Output {
   std::optional<double> given_interval;
-  std::optional<Value> given_history;
+  std::optional<Value> given_history, given_stiffness;
 };
 const Table<OutputKeys> output_table(
     "What is written while the scene is solved.",
@@ -85,7 +88,11 @@ const Table<OutputKeys> output_table(
      {"history", later(list_form(history_expected, text(history_item).form)), absent("none"),
       "The points, bodies and cables whose motion and tension are written to history.csv.", &OutputKeys::given_history},
      {"energy", boolean(), standard, "Whether the history holds the energy of the whole and its parts.",
-      &OutputKeys::energy}});
+      &OutputKeys::energy},
+     {"stiffness", later(list_form(stiffness_expected, text(stiffness_item).form)), absent("none"),
+      "The points and bodies whose stiffness in the equilibrium, with all else in equilibrium, is written to "
+      "stiffness.csv and run.yaml.",
+      &OutputKeys::given_stiffness}});
 
 [[noreturn]] void fail_history(const Value& item, const std::string& name, const SceneNames& names) {
   if (names.nets.has(name)) item.fail(fmt::format("{} is a net; expected points, bodies and cables. Remove it.", name));
@@ -99,22 +106,49 @@ const Table<OutputKeys> output_table(
                         listed(known), did_you_mean(name, known)));
 }
 
-void read_history(const Value& value, const SceneNames& names, Output& output) {
-  const std::pair<HistoryKind, const Names*> kinds[] = {
-      {HistoryKind::point, &names.points}, {HistoryKind::body, &names.bodies}, {HistoryKind::cable, &names.cables}};
+using Kinds = std::vector<std::pair<HistoryKind, const Names*>>;
+
+/// @param fail  refuses a name of none of these kinds
+template <class Fail>
+std::vector<HistoryItem> read_items(const Value& value, const std::string& list, const std::string& one,
+                                    const Kinds& kinds, Fail fail) {
+  std::vector<HistoryItem> items;
   std::set<std::pair<HistoryKind, int>> seen;
-  for (const Value& item : read_list(value, history_expected)) {
-    const std::string name = read_text(item, history_item);
+  for (const Value& item : read_list(value, list)) {
+    const std::string name = read_text(item, one);
     const auto has_name = [&](const auto& entry) { return entry.second->find(name).has_value(); };
-    const auto found = std::find_if(std::begin(kinds), std::end(kinds), has_name);
-    if (found == std::end(kinds)) fail_history(item, name, names);
+    const auto found = std::find_if(kinds.begin(), kinds.end(), has_name);
+    if (found == kinds.end()) fail(item, name);
     const auto [first, count] = *found->second->find(name);
     for (int i = first; i < first + count; ++i) {
       if (!seen.insert({found->first, i}).second)
         item.fail(fmt::format("{} is already in the list; expected each once. Remove it.", name));
-      output.history.push_back({found->first, i});
+      items.push_back({found->first, i});
     }
   }
+  return items;
+}
+
+void read_history(const Value& value, const SceneNames& names, Output& output) {
+  output.history = read_items(
+      value, history_expected, history_item,
+      {{HistoryKind::point, &names.points}, {HistoryKind::body, &names.bodies}, {HistoryKind::cable, &names.cables}},
+      [&](const Value& item, const std::string& name) { fail_history(item, name, names); });
+}
+
+void read_stiffness(const Value& value, const Scene& scene, const SceneNames& names, Output& output) {
+  if (!scene.starts_static)
+    value.fail(
+        "is not allowed in a run from rest; expected one from an equilibrium, as the stiffness is that of an "
+        "equilibrium. Give initial: static, or no time, or remove it.");
+  const auto fail = [&](const Value& item, const std::string& name) {
+    std::vector<std::string> known = names.points.all();
+    known.insert(known.end(), names.bodies.all().begin(), names.bodies.all().end());
+    item.fail(fmt::format("{} is no point or body; expected one of: {}.{} Correct or remove it.", name, listed(known),
+                          did_you_mean(name, known)));
+  };
+  output.stiffness = read_items(value, stiffness_expected, stiffness_item,
+                                {{HistoryKind::point, &names.points}, {HistoryKind::body, &names.bodies}}, fail);
 }
 
 }   // namespace
@@ -130,11 +164,12 @@ Time read_time(const Value& value) {
   return time;
 }
 
-Output read_output(const std::optional<Value>& value, const Time& time, const SceneNames& names) {
+Output read_output(const std::optional<Value>& value, const Scene& scene, const SceneNames& names) {
   OutputKeys output;
   if (value) read_rows(*value, output_table, output);
-  output.interval = output.given_interval.value_or((time.end - time.start) / 100);
+  output.interval = output.given_interval.value_or((scene.time.end - scene.time.start) / 100);
   if (output.given_history) read_history(*output.given_history, names, output);
+  if (output.given_stiffness) read_stiffness(*output.given_stiffness, scene, names, output);
   return output;
 }
 

@@ -23,7 +23,8 @@ public:
     const scene::Time& time = scene.time;
     add(time.start, time.end, time.step, time.scheme, time.spectral_radius, time.axial_dissipation, time.tolerance);
     add(scene.output.interval, scene.output.energy, scene.output.history.size());
-    for (const scene::HistoryItem& item : scene.output.history) add(item.kind, item.index);
+    for (const auto* list : {&scene.output.history, &scene.output.stiffness})
+      for (const scene::HistoryItem& item : *list) add(item.kind, item.index);
   }
 
   std::string text() const { return text_.str(); }

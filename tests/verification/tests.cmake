@@ -32,3 +32,4 @@ cablenet_script_test(verification_static_scenes verification/static_scenes.py 30
 cablenet_script_test(verification_bergdahl verification/bergdahl.py 120 verification)
 cablenet_script_test(verification_yardstick verification/yardstick.py 60 verification
   --yardstick $<TARGET_FILE:yardstick_chain>)
+cablenet_script_test(verification_stiffness verification/stiffness.py 300 verification)

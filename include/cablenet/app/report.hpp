@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cablenet/app/energy_report.hpp"
+#include "cablenet/app/stiffness.hpp"
 #include "cablenet/network/network.hpp"
 #include "cablenet/partition/partition.hpp"
 #include "cablenet/scene/scene.hpp"
@@ -31,8 +32,9 @@ struct Report {
     int iterations;
     bool ends_by_rounding;   ///< The imbalance is rounding's share, and more than what passes otherwise.
   };
-  std::optional<Statics> statics;       ///< where there was an equilibrium to find
-  std::optional<EnergyReport> energy;   ///< where accounts were kept
+  std::optional<Statics> statics;          ///< where there was an equilibrium to find
+  std::vector<NamedStiffness> stiffness;   ///< in that equilibrium, where the scene asks for it
+  std::optional<EnergyReport> energy;      ///< where accounts were kept
   /// A part of the run, with its wall time and its time of computing [s].
   struct Phase {
     std::string name;
@@ -41,6 +43,11 @@ struct Report {
   };
   std::vector<Phase> phases;
 };
+
+/// Says on rank 0 what is worth a line.
+void tell(const std::string& text);
+/// Says on rank 0, and keeps, what a user should know.  An empty text is none.
+void add_note(Report& report, const std::string& text);
 
 /// 128-bit XXH3 of the scene's text, in hexadecimal.
 std::string scene_hash(const scene::Scene& scene);

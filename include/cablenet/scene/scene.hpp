@@ -12,6 +12,7 @@
 #include "cablenet/scene/choice.hpp"
 #include "cablenet/scene/force_law.hpp"
 #include "cablenet/scene/motion.hpp"
+#include "cablenet/scene/net.hpp"
 #include "cablenet/scene/time.hpp"
 
 /// What the user asked for, as plain data in SI units.  All copies that `repeat` asks for are listed, and things refer
@@ -81,21 +82,6 @@ struct Cable {
   Shape shape = Shape::straight;
   std::vector<Vector3> polyline;        ///< when shape is polyline, from end to end
   std::vector<Vector3> node_velocity;   ///< empty, or one per node
-};
-
-enum class Edge { top, right, bottom, left };
-template <>
-inline constexpr std::array<Choice<Edge>, 4> choices<Edge>{
-    {{Edge::top, "top"}, {Edge::right, "right"}, {Edge::bottom, "bottom"}, {Edge::left, "left"}}};
-
-struct Net {
-  std::string name;
-  std::string where;   ///< "file:line" for messages
-  int type = 0;
-  std::array<Vector3, 4> corners;   ///< in order round the panel; top joins corners 0 and 1, right 1 and 2, ...
-  std::array<int, 2> meshes{};      ///< along the first edge (corners 0-1) and the second (1-2)
-  double slack = 1;                 ///< unstretched length / drawn length
-  std::vector<Edge> fixed;
 };
 
 struct Scene {

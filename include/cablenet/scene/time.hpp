@@ -34,6 +34,7 @@ struct Output {
   double interval = 0;   ///< from one frame to the next [s]; 0: every step is a frame
   std::vector<HistoryItem> history;
   bool energy = false;
+  std::vector<HistoryItem> stiffness;   ///< points and bodies whose stiffness in the equilibrium is asked for
 };
 
 }   // namespace cablenet::scene
