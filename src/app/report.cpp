@@ -54,6 +54,18 @@ void emit_statics(YAML::Emitter& yaml, const Report::Statics& statics) {
        << number(statics.frame.y()) << number(statics.frame.z()) << YAML::EndSeq << YAML::EndMap;
 }
 
+void emit_pretensions(YAML::Emitter& yaml, const std::vector<Report::Pretension>& all) {
+  yaml << YAML::Key << "found_by_tension" << YAML::Value << YAML::BeginMap;
+  for (const auto& [name, is_net, value, tension] : all) {
+    yaml << YAML::Key << name << YAML::Value << YAML::Flow << YAML::BeginMap;
+    yaml << YAML::Key << (is_net ? "slack" : "length_m") << YAML::Value << fmt::format("{:.17g}", value);
+    yaml << YAML::Key << (is_net ? "mean_tension_N" : "tension_from_N") << YAML::Value
+         << fmt::format("{:.12g}", tension);
+    yaml << YAML::EndMap;
+  }
+  yaml << YAML::EndMap;
+}
+
 void emit_energy(YAML::Emitter& yaml, const EnergyReport& report) {
   const auto& [now, moved, gained, imbalance] = report.energy;
   const auto put = [&](const char* key, double value) {
@@ -89,6 +101,7 @@ void emit_stiffness(YAML::Emitter& yaml, const std::vector<NamedStiffness>& all)
 
 void emit_solution(YAML::Emitter& yaml, const Report& report) {
   if (report.statics) emit_statics(yaml, *report.statics);
+  if (!report.pretensions.empty()) emit_pretensions(yaml, report.pretensions);
   if (!report.stiffness.empty()) emit_stiffness(yaml, report.stiffness);
   yaml << YAML::Key << "scheme" << YAML::Value << report.scheme;
   yaml << YAML::Key << "linear_solver" << YAML::Value << report.linear_solver;

@@ -50,8 +50,12 @@ public:
 
   int run() {
     for (const std::string& text : network::drawn_notes(scene_, network_)) add_note(report_, text);
+    watch_.lap(set_up_);
+    const bool has_lengths = !equilibrium_ || equilibrium_->find_lengths(network_, report_);
+    watch_.lap(statics_);
     open_output();
     watch_.lap(set_up_);
+    if (!has_lengths) return conclude_statics(false);
     if (scene_.starts_static && !find_equilibrium()) return conclude_statics(false);
     if (scene_.is_static) return conclude_statics(true);
     return run_dynamics();

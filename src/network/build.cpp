@@ -10,6 +10,7 @@
 #include "cablenet/base/errors.hpp"
 #include "cablenet/network/hanging.hpp"
 #include "cablenet/network/shape.hpp"
+#include "pretension.hpp"
 
 namespace cablenet::network {
 namespace {
@@ -89,6 +90,7 @@ void Builder::number_nodes() {
   prescribed_.resize(static_cast<int>(nodes), false);
   network_.gravity = scene_.gravity;
   network_.surroundings = make_surroundings(scene_);
+  network_.pretensions = pretensions_of(scene_);
   for (const auto& type : scene_.cable_types)
     network_.materials.push_back({type.axial_stiffness,
                                   type.axial_damping + type.rayleigh_stiffness * type.axial_stiffness,
@@ -171,7 +173,7 @@ void Builder::lay_cable(std::size_t index) {
   const scene::Cable& cable = scene_.cables[index];
   const Vector3 a = network_.position[end_node(cable.from)];
   const Vector3 b = network_.position[end_node(cable.to)];
-  const double length = cable.length.value_or((b - a).norm());
+  const double length = cable.tension ? first_length(scene_, cable, a, b) : cable.length.value_or((b - a).norm());
   if (!(length > 0)) complain(cable, "its two ends lie on one point, so its length must be given; add `length`");
   for (const double tap : taps_[index])
     if (tap > length * (1 + 1e-9))
@@ -259,9 +261,10 @@ void Builder::add_net_elements(std::size_t index) {
   const scene::Net& net = scene_.nets[index];
   const int id = static_cast<int>(index);
   const int first = static_cast<int>(network_.elements.size());
+  const double slack = net.prestress ? first_slack(scene_, net) : net.slack;
   const auto join = [&](SceneNode a, SceneNode b) {
     const double drawn = (network_.position[b] - network_.position[a]).norm();
-    network_.elements.push_back({{a, b}, net.type, net.slack * drawn});
+    network_.elements.push_back({{a, b}, net.type, slack * drawn});
   };
   for (int j = 0; j <= net.meshes[1]; ++j)
     for (int i = 0; i <= net.meshes[0]; ++i) {

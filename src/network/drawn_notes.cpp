@@ -105,6 +105,7 @@ private:
   }
 
   Stretched stretched(std::size_t cable) const {
+    if (scene_.cables[cable].tension) return {};
     const Span& span = network_.spans[cable];
     const Element& first = network_.elements[at(span.first_element)];
     const Element& last = network_.elements[at(span.first_element + span.elements - 1)];

@@ -79,6 +79,10 @@ void check_size(const std::vector<CableDraft>&, const std::vector<Net>&, const V
 void mark_repeated(const std::vector<CableDraft>&, std::vector<PointDraft>&, std::vector<BodyDraft>&);
 std::vector<Point> expand_points(const std::vector<PointDraft>&, Names& points);
 std::vector<Body> expand_bodies(const std::vector<BodyDraft>&, Names& bodies);
+/// @param nets  the section, where there is one
+/// @throws InputError where lengths that are found by tensions cannot be: in a run from rest, and of a tapped cable.
+/// @pre the scene's nets are read, and whether it starts from an equilibrium.
+void check_pretensions(const std::vector<CableDraft>&, const std::optional<Value>& nets, const Scene&);
 /// @throws InputError if taps go round in a circle.
 void check_circles(const std::vector<CableDraft>&);
 /// @pre `scene` holds all but its cables.

@@ -100,6 +100,7 @@ Scene read_scene(const std::string& text, const std::string& file) {
         "cables: the scene has neither cables nor nets nor bodies; expected at least one. Add cables, nets or bodies.");
   check_distinct(points, bodies, cables);
   check_size(cables, scene.nets, top.map());
+  check_pretensions(cables, keys.nets, scene);
   check_circles(cables);
   mark_repeated(cables, points, bodies);
   scene.points = expand_points(points, names.points);

@@ -112,8 +112,11 @@ const Table<CableKeys> cable_table(
       &CableKeys::given_type},
      {"from", reference(), required, "Where the cable starts.", &CableKeys::from_name},
      {"to", reference(), required, "Where the cable ends.", &CableKeys::to_name},
-     {"length", number("m", above(0)), absent("the distance between the drawn ends"), "The unstretched length.",
-      &CableKeys::length},
+     {"length", number("m", above(0)), absent("the distance between the drawn ends, unless tension is given"),
+      "The unstretched length.", &CableKeys::length},
+     {"tension", number("N", above(0)), absent("length holds"),
+      "Instead of length: what pulls at `from` in the equilibrium; the unstretched length is found by it.",
+      &CableKeys::tension},
      {"elements", integer(1), required, "How many elements the cable is divided into.", &CableKeys::elements},
      {"shape", later(shape_form()), absent("straight"),
       "How the cable is drawn: straight; catenary, as it hangs without stretch, upwards where it floats, and lying on "
@@ -130,7 +133,9 @@ const Table<CableKeys> cable_table(
 
 CableDraft read_cable(const Named& named, const Names& types) {
   CableKeys cable;
-  read_rows(named.value, cable_table, cable);
+  const Section section = read_rows(named.value, cable_table, cable);
+  if (cable.length && cable.tension)
+    section.find("tension")->refuse("no tension beside length, as the length is found by it", "Remove one of them.");
   cable.name = named.name;
   cable.where = named.value.where();
   cable.type = types.one(*cable.given_type, read_text(*cable.given_type, "the name of a cable type"));

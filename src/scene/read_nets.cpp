@@ -51,13 +51,18 @@ const Table<NetKeys> net_table(
      {"meshes", integer_pair("[nx, ny]", 1), required,
       "How many meshes there are along the first edge (corners 1 to 2) and the second (2 to 3).", &NetKeys::meshes},
      {"slack", number("", above(0)), standard, "The unstretched length over the drawn length.", &NetKeys::slack},
+     {"prestress", number("N", above(0)), absent("slack holds"),
+      "Instead of slack: the mean tension of the twines, by length, in the equilibrium; the slack is found by it.",
+      &NetKeys::prestress},
      {"fixed", Kind<std::vector<Edge>>{list_form(edges_expected, choice<Edge>().form), read_edges, nullptr},
       absent("none"), "The edges that are held; top joins corners 1 and 2, right 2 and 3, and so on.",
       &NetKeys::fixed}});
 
 Net read_net(const Named& named, const Names& types) {
   NetKeys net;
-  read_rows(named.value, net_table, net);
+  const Section section = read_rows(named.value, net_table, net);
+  if (net.prestress && section.find("slack") != nullptr)
+    section.find("prestress")->refuse("no prestress beside slack, as the slack is found by it", "Remove one of them.");
   net.name = named.name;
   net.where = named.value.where();
   net.type = types.one(*net.given_type, read_text(*net.given_type, "the name of a cable type"));

@@ -225,14 +225,21 @@ std::vector<std::pair<int, double>> StaticForces::pushing(Vec x, double least) {
   return found;
 }
 
-TensionRange StaticForces::tensions(Vec x) {
+std::vector<double> StaticForces::element_tensions(Vec x) {
   const system::LocalState& state = assembler_.observe(t_, x, v_, resting_);
-  double range[2] = {0, 0};   // the strongest compression, and the largest absolute tension
   const partition::LocalNetwork& network = assembler_.network();
+  std::vector<double> all;
   for (int i = 0; i < network.own_elements; ++i) {
     const partition::LocalElement& e = network.elements[at(i)];
-    const elements::CableMaterial& material = network.materials[at(e.material)];
-    const double T = elements::cable_tension(material, e.length, {state.chord(e).d, Vector3::Zero()});
+    all.push_back(
+        elements::cable_tension(network.materials[at(e.material)], e.length, {state.chord(e).d, Vector3::Zero()}));
+  }
+  return all;
+}
+
+TensionRange StaticForces::tensions(Vec x) {
+  double range[2] = {0, 0};   // the strongest compression, and the largest absolute tension
+  for (const double T : element_tensions(x)) {
     range[0] = std::max(range[0], -T);
     range[1] = std::max(range[1], std::abs(T));
   }

@@ -58,6 +58,13 @@ void Assembler::start_from(double t, Vec x, const Vector3& velocity) {
   }
 }
 
+void Assembler::lengthen(int first, int count, double factor) {
+  evaluated_ = {};
+  for (std::size_t i = 0; i < network_.elements.size(); ++i)
+    if (const int element = network_.scene_element[i]; element >= first && element < first + count)
+      network_.elements[i].length *= factor;
+}
+
 void Assembler::begin(const Situation& situation, Vec x, Vec v) {
   const OpenVectors vectors(network_, parts_->outside, x, v, nullptr, nullptr);
   const NodeData& data = vectors.data;

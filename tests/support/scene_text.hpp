@@ -98,10 +98,12 @@ private:
     for (const scene::Attachment& attachment : body.attachments) add(attachment.name, attachment.offset);
   }
   void add(const scene::Cable& cable) {
-    add(cable.name, cable.type, cable.from, cable.to, cable.length, cable.elements, cable.shape);
+    add(cable.name, cable.type, cable.from, cable.to, cable.length, cable.tension, cable.elements, cable.shape);
     add(cable.polyline, cable.node_velocity);
   }
-  void add(const scene::Net& net) { add(net.name, net.type, net.corners, net.meshes, net.slack, net.fixed); }
+  void add(const scene::Net& net) {
+    add(net.name, net.type, net.corners, net.meshes, net.slack, net.prestress, net.fixed);
+  }
 
   std::ostringstream text_;
 };

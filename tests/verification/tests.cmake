@@ -33,3 +33,4 @@ cablenet_script_test(verification_bergdahl verification/bergdahl.py 120 verifica
 cablenet_script_test(verification_yardstick verification/yardstick.py 60 verification
   --yardstick $<TARGET_FILE:yardstick_chain>)
 cablenet_script_test(verification_stiffness verification/stiffness.py 300 verification)
+cablenet_script_test(verification_pretension verification/pretension.py 300 verification)

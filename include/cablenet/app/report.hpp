@@ -32,6 +32,14 @@ struct Report {
     int iterations;
     bool ends_by_rounding;   ///< The imbalance is rounding's share, and more than what passes otherwise.
   };
+  /// What was found by a tension.
+  struct Pretension {
+    std::string name;
+    bool is_net;
+    double value;     ///< a cable's unstretched length [m]; a net's slack
+    double tension;   ///< at the cable's start, or the net's mean [N]
+  };
+  std::vector<Pretension> pretensions;
   std::optional<Statics> statics;          ///< where there was an equilibrium to find
   std::vector<NamedStiffness> stiffness;   ///< in that equilibrium, where the scene asks for it
   std::optional<EnergyReport> energy;      ///< where accounts were kept

@@ -76,6 +76,13 @@ struct Span {
   int elements;
 };
 
+/// A cable or a net whose unstretched lengths are to be found with the equilibrium, all by one factor.
+struct Pretension {
+  int span;   ///< index into Network::spans
+  bool is_net;
+  double tension;   ///< of a cable: what pulls at its first end; of a net: the mean over its twines [N]
+};
+
 struct Network {
   Table<SceneNode, Vector3> position;   ///< at the start [m]
   Table<SceneNode, Vector3> velocity;   ///< at the start [m/s]
@@ -88,7 +95,8 @@ struct Network {
   std::vector<Link<SceneNode>> links;
   Surroundings surroundings;
   std::vector<WetPoint<SceneNode>> wet_points;
-  std::vector<Span> spans;             ///< the scene's cables, then its nets
+  std::vector<Span> spans;   ///< the scene's cables, then its nets
+  std::vector<Pretension> pretensions;
   std::vector<scene::Point> points;    ///< the scene's
   std::vector<SceneNode> point_node;   ///< per scene point
   double gravity = 0;                  ///< [m/s^2] along -z

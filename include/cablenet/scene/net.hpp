@@ -18,9 +18,10 @@ struct Net {
   std::string name;
   std::string where;   ///< "file:line" for messages
   int type = 0;
-  std::array<Vector3, 4> corners;   ///< in order round the panel; top joins corners 0 and 1, right 1 and 2, ...
-  std::array<int, 2> meshes{};      ///< along the first edge (corners 0-1) and the second (1-2)
-  double slack = 1;                 ///< unstretched length / drawn length
+  std::array<Vector3, 4> corners;    ///< in order round the panel; top joins corners 0 and 1, right 1 and 2, ...
+  std::array<int, 2> meshes{};       ///< along the first edge (corners 0-1) and the second (1-2)
+  double slack = 1;                  ///< unstretched length / drawn length
+  std::optional<double> prestress;   ///< mean tension in the equilibrium [N], by which the slack is found
   std::vector<Edge> fixed;
 };
 

@@ -77,7 +77,8 @@ struct Cable {
   int type = 0;        ///< index into Scene::cable_types
   CableEnd from = PointEnd{0};
   CableEnd to = PointEnd{0};
-  std::optional<double> length;   ///< unstretched [m]; none: the distance between the drawn ends
+  std::optional<double> length;    ///< unstretched [m]; none: the distance between the drawn ends
+  std::optional<double> tension;   ///< at `from` in the equilibrium [N], by which the length is found
   int elements = 0;
   Shape shape = Shape::straight;
   std::vector<Vector3> polyline;        ///< when shape is polyline, from end to end

@@ -52,6 +52,8 @@ public:
   /// What the loads alone leave: r without internal forces, and without the bed.
   void loads(Vec x, Vec r);
   TensionRange tensions(Vec x);
+  /// Of this rank's own elements, in their order.  [N]
+  std::vector<double> element_tensions(Vec x);
   /// This rank's elements that push with more than `least` at x, by their numbers in the scene, and how much.  [N]
   std::vector<std::pair<int, double>> pushing(Vec x, double least);
   /// This rank's elements on the bed at x, by their numbers in the scene.  1: both ends lie on it.  0: one end does,

@@ -38,6 +38,8 @@ public:
   void fill_initial(Vec x, Vec v) const;
   /// Makes x, all of it moving at `velocity` [m/s] and without turning, the network's start.
   void start_from(double t, Vec x, const Vector3& velocity);
+  /// Multiplies the unstretched lengths of the network's elements [first, first + count).  Not collective.
+  void lengthen(int first, int count, double factor);
 
   /// Keeps what the forces need of a step's start.
   void begin_step(double t, Vec x, Vec v);
