@@ -29,6 +29,9 @@ namespace {
 }   // namespace
 
 int main(int argc, char** argv) {
+  // Open MPI opens a semaphore of the machine for each file, by the file's name.  A run that was killed leaves it
+  // behind, and the next run would wait for it without end.
+  setenv("OMPI_MCA_sharedfp", "^sm", 0);
   std::set_terminate(abort_all_ranks);
   return cablenet::app::run(argv[0], {argv + 1, argv + argc});
 }
