@@ -46,8 +46,7 @@ std::string note_of_dissipation(const EnergyReport& report) {
   if (taken <= most_dissipated) return {};
   return fmt::format(
       "the step's formulas took {:.2g} % of the energy that moved: where that was motion, it is gone; shorter steps "
-      "take "
-      "less, and so does a larger time.spectral_radius",
+      "take less, and so does a larger time.spectral_radius",
       100 * taken);
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "vector_sums.hpp"
+
 namespace cablenet::solve {
 namespace {
 
@@ -40,18 +42,6 @@ constexpr double turning = 2;
 /// well.
 constexpr int most_drags = 30;
 constexpr double left = 0.03, falling = 0.7, least_share = 0.1;
-
-double norm(Vec v) {
-  PetscReal value = 0;
-  check(VecNorm(v, NORM_2, &value));
-  return value;
-}
-
-double dot(Vec a, Vec b) {
-  PetscScalar value = 0;
-  check(VecDot(a, b, &value));
-  return value;
-}
 
 double largest_stiffness(const partition::LocalNetwork& network) {
   double largest = 0;

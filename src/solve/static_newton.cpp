@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "vector_sums.hpp"
+
 namespace cablenet::solve {
 namespace {
 
@@ -35,18 +37,6 @@ constexpr double short_step = 0.15;
 
 /// What keeps tangents definite.
 constexpr double first_shift = 0.01, largest_shift = 1e6, shift_growth = 10;   // [1/s], [1/s], 1
-
-double norm(Vec v) {
-  PetscReal value = 0;
-  check(VecNorm(v, NORM_2, &value));
-  return value;
-}
-
-double dot(Vec a, Vec b) {
-  PetscScalar value = 0;
-  check(VecDot(a, b, &value));
-  return value;
-}
 
 const char* way_of(const StaticRule& rule) {
   switch (rule.kind) {

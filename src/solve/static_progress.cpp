@@ -22,7 +22,7 @@ StaticProgress::StaticProgress(MPI_Comm communicator)
       monitors_(petsc::flag_option(communicator, nullptr, statics_monitor_option.text)),
       limit_(read_number(statics_time_limit_option, communicator, nullptr, unlimited, 0, unlimited)) {}
 
-/// The clocks of ranks differ, so that the first rank's decides for all.
+/// Clocks differ from rank to rank.  So the first rank alone reads its clock, and all follow it.
 bool StaticProgress::note(const char* way, double residual, double reference, const std::string& details) {
   int rank = 0;
   MPI_Comm_rank(communicator_, &rank);

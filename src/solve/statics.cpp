@@ -33,7 +33,8 @@ constexpr StringStage string_stages[] = {{1, 0.5, 4}, {3, 0.25, 20}, {9, 0.1, 20
 
 /// The residual over the loads at which a descent ends for Newton's method, again and again where that does not arrive.
 constexpr double descent_goals[] = {1e-3, 1e-6, 1e-8, 1e-10};
-/// In a flow it ends much sooner for the first time: Newton's method knows how drag turns, and a descent does not.
+/// In a flow, the goal of the first descent.  A descent holds the drag.  Newton's method has its derivative, so it can
+/// take over much earlier.
 constexpr double goal_in_flow = 0.02;
 constexpr int most_after_descent = 40;
 

@@ -16,7 +16,7 @@ constexpr double part_of_pull = 1e-3;
 /// and otherwise on other numbers of ranks.
 constexpr double ahead = 1 + 1e-4;
 
-/// An implicit step makes nothing grow by more than about exp() of this, however long it is.
+/// However long an implicit step is, it multiplies a growing disturbance by about exp(most_in_step) at most.
 constexpr double most_in_step = 2;
 
 void take_push(ElementTension& e, double push, double t, double dt, double L, double mass_per_length) {

@@ -4,7 +4,8 @@
 
 namespace cablenet::system {
 
-/// What the loads of water have in common: the scene's water, the same without waves, and the same at rest.
+/// The base of all terms that load something by water.  It keeps the scene's water three times: as it is, without
+/// waves, and at rest.
 class WaterTerm : public Term {
 public:
   explicit WaterTerm(const partition::LocalNetwork& network)

@@ -20,7 +20,7 @@ namespace cablenet::app {
 struct Report {
   std::string status;               ///< finished | stopped | failed
   std::string message;              ///< why, if not finished
-  std::vector<std::string> notes;   ///< said of the equilibrium and of the run
+  std::vector<std::string> notes;   ///< what the run warned of, in the order of the warnings
   double reached = 0;               ///< simulated time [s]
   std::string scheme;
   std::string linear_solver;

@@ -41,7 +41,8 @@ struct ChordStep {
 /// Without the terms in xi and c, the work f . (d1 - d0) is exactly the change of the strain energy EA/L p^2/2.  (T is
 /// then the discrete gradient of that energy.)  The term in xi resists a growth of p other than
 /// `due`, which the steps before let expect (next_due()).  It never raises the sum of all energy and of
-/// xi/(2 + 2 a) EA/L due^2.  What it takes from a smooth motion is of third order in dt for each step.
+/// xi/(2 + 2 a) EA/L due^2, where a is that of next_due().  In each step it takes energy of third order in dt from a
+/// smooth motion.
 /// A tension_only element never pushes: T is 0 where the formula is negative.
 Vector3 energy_momentum_force(const CableMaterial&, double L, const ChordStep&);
 

@@ -21,8 +21,8 @@ struct EnergyMomentumLaw {
   double alpha_f;
   double dt;
   double xi;
-  double pace;         ///< over ReachedStart::due in this step; 0 where none came before
-  double taken_pace;   ///< likewise in the step before
+  double pace;         ///< factor of ReachedStart::due in this step; 0 in a run's first step
+  double taken_pace;   ///< the same factor in the step before
 
   void begin(const ElementStart& e, Start& start) const {
     const Stretch s = stretch(e.d);

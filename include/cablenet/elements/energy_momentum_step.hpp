@@ -39,7 +39,7 @@ struct LengthStep {
 /// What the change of p is expected to be in the next step, after one in which it was `grown` instead of `due`:
 ///   due' = grown + a (grown - due)
 /// With a = 0 the term in xi would be a second difference.  For the same effect where p alternates from step to step,
-/// this filter has (1 + a)^2/(1 - a) = 8 times less where p is smooth.  Energy never comes from it: src/numerics.md.
+/// this filter takes (1 + a)^2/(1 - a) = 8 times less where p is smooth.  It never adds energy: src/numerics.md.
 inline double next_due(double grown, double due) {
   constexpr double a = 0.65;
   return grown + a * (grown - due);

@@ -7,7 +7,7 @@
 
 namespace cablenet::elements {
 
-/// A tension [N], its derivative by the strain [N], and its integral [N].
+/// A tension T, its derivative by the strain and its integral over the strain.  [N]
 struct StaticTension {
   double T, stiffness, energy;
 };

@@ -12,8 +12,8 @@ struct StaticRule {
     ropes,     ///< The forces are the cables' own.  The tangent's turning part takes the tension that the last
                ///< linear solution predicted, or the strings' tension where string_tension is given; in any case at
                ///< least least_tension.
-    descent,   ///< As ropes, but no axial stiffness is larger than most_stiffness, and strings of the tension
-               ///< `holding` hold the nodes together in the tangent.  What is slack turns nothing.
+    descent,   ///< As ropes, but no axial stiffness is larger than most_stiffness.  The tangent also has strings of
+               ///< the tension `holding` along all elements.  A slack element has no turning part.
     exact      ///< The forces and the tangent are the cables' own.
   } kind = Kind::exact;
   double exponent = 1;

@@ -12,10 +12,10 @@
 /// that holds it where it is, is K dx, with everything else in equilibrium again.  So what restores is -K dx.
 /// With the tangent's blocks of the node p and of all other unknowns f,  K = T_pp - T_pf T_ff^-1 T_fp.
 /// Of a free node it is the inverse of the flexibility.
-/// A body with an attitude has six rows: force and moment about its centre of gravity, by displacement and by a small
-/// rotation vector, in the world's axes.  Its unknowns' rows and columns are turned into those (bodies/small_turn.hpp).
-/// Units: N/m, N by rotation [rad], N m/m, N m/rad.
-/// Tests: tests/parallel/condensed_stiffness_test.cpp, tests/verification/stiffness.py
+/// For a body with an attitude K is 6x6.  Its rows are the force and the moment about the centre of gravity.  Its
+/// columns are the displacement and a small rotation vector.  All are in the world's axes; bodies/small_turn.hpp
+/// converts them from the unknowns of the attitude. Units: N/m, N by rotation [rad], N m/m, N m/rad. Tests:
+/// tests/parallel/condensed_stiffness_test.cpp, tests/verification/stiffness.py
 namespace cablenet::solve {
 
 /// All ranks' shares together: the network as it stands at a start that Assembler::start_from has set.  Collective.

@@ -43,8 +43,8 @@ public:
 
   /// Goes near the equilibrium by soft cables.
   void soften(Vec x);
-  /// Goes down with the cables as they are until the residual over the loads is at most `goal`.
-  /// @returns whether it is
+  /// Goes down with the true stiffness of the cables.  It ends where the residual is at most `goal` times the loads.
+  /// @returns whether it got there
   bool go_on(Vec x, double goal);
 
 private:

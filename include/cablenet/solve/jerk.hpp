@@ -10,7 +10,7 @@ namespace cablenet::solve {
 
 /// The steps to which the kept accelerations belong.
 struct KeptSteps {
-  double time = 0;     ///< at which the true motion has the acceleration kept last, counted from the step's start [s]
+  double time = 0;     ///< when the true motion had the last kept acceleration, from the step's start on [s]
   double last = 0;     ///< length of the step before; 0: there was none, and the start's acceleration is kept [s]
   double before = 0;   ///< length of the one before that; likewise [s]
 

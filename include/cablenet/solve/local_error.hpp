@@ -29,7 +29,7 @@ struct OpenStep;
 /// The local error of a step: the distance by which this step alone leads a node or a body's attachments astray.
 ///   error of a node = |beta + (alpha_f - alpha_m)/2 - 1/6| dt^3 |x'''|
 ///   error of a body = L dt^3 |w'' - w x w'|/12   after a conserving step (rigid_body.hpp)
-///                   = L |rates e|                otherwise.  e, of its attitude's unknowns, has the formula of nodes.
+///                   = L |rates e|                after other steps, e as for a node, of the unknowns of its attitude
 /// L is LocalBody::reach.  The largest error of any node and body counts.
 ///
 /// x''' and w'' follow from the accelerations that are kept of this step and of those before (jerk.hpp).
@@ -45,7 +45,7 @@ public:
   static constexpr double memory = 3;
 
   /// @param longest            over which a step's error can count; 0: each counts by itself [s]
-  /// @param conserves          bodies with quaternions take conserving steps where the stage is the step's middle
+  /// @param conserves          Bodies with quaternions take conserving steps.  They do so only at alpha_f = 1/2.
   /// @param axial_dissipation  xi of energy_momentum
   explicit LocalError(double longest = 0, bool conserves = false, double axial_dissipation = 0)
       : longest_(longest), conserves_(conserves), axial_dissipation_(axial_dissipation) {}

@@ -36,8 +36,8 @@ public:
   bool is_in_flow() const;
   /// Keeps the elements' directions at x.  system::StaticRule::ropes needs those of the iterate before.
   void keep(Vec x);
-  /// From here on the drag is held: it is that at x, whatever the shape.  With `share` of it, and the rest of what was
-  /// held before.  The loads then have a potential, but for the turning of bodies.
+  /// Holds the drag: from here on it no longer depends on the shape.  It becomes share * drag at x + (1 - share) * what
+  /// was held before.  The loads then have a potential, except those that turn bodies.
   void hold_drag(Vec x, double share = 1);
   /// From here on the drag follows the shape.
   void let_drag_follow() { holds_drag_ = false; }
