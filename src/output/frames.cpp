@@ -5,8 +5,8 @@
 #include <map>
 #include <optional>
 
+#include "cablenet/bodies/body_box.hpp"
 #include "cablenet/elements/cable.hpp"
-#include "cablenet/output/body_box.hpp"
 
 namespace cablenet::output {
 namespace {
@@ -89,7 +89,7 @@ void Frames::fill_bodies(const network::Network& network) {
   for (const auto& body : network.bodies) {
     const bool turns = body.properties.rotation != bodies::Rotation::none;
     const auto inertia = turns ? std::optional(body.properties.inertia) : std::nullopt;
-    const auto [edges, q] = body_box(mass.at(body.node), inertia);
+    const auto [edges, q] = bodies::body_box(mass.at(body.node), inertia);
     mesh_.body_box.insert(mesh_.body_box.end(), edges.begin(), edges.end());
     mesh_.body_box_attitude.insert(mesh_.body_box_attitude.end(), {q.w(), q.x(), q.y(), q.z()});
   }

@@ -3,8 +3,9 @@
 
 #include "cablenet/base/linear_algebra.hpp"
 
-/// Pictures show a rigid body as a box.  Tests: tests/parallel/body_box_test.cpp
-namespace cablenet::output {
+/// Pictures show a rigid body as a box, and it touches the bed with the box's corners.
+/// Tests: tests/unit/body_box_test.cpp
+namespace cablenet::bodies {
 
 struct BodyBox {
   Vector3 edges;         ///< lengths along the box's own axes [m]
@@ -20,4 +21,4 @@ struct BodyBox {
 ///                 point mass, which is drawn as a cube with the density of water.
 BodyBox body_box(double mass, const std::optional<Matrix3>& inertia);
 
-}   // namespace cablenet::output
+}   // namespace cablenet::bodies

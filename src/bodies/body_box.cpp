@@ -1,4 +1,4 @@
-#include "cablenet/output/body_box.hpp"
+#include "cablenet/bodies/body_box.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace cablenet::output {
+namespace cablenet::bodies {
 namespace {
 
 constexpr double thinnest_edge = 0.02;        // over the longest edge: thinner boxes can hardly be seen
@@ -75,4 +75,4 @@ BodyBox body_box(double mass, const std::optional<Matrix3>& inertia) {
   return {edges.cwiseMax(thinnest_edge * edges.maxCoeff()), Quaternion(axes)};
 }
 
-}   // namespace cablenet::output
+}   // namespace cablenet::bodies

@@ -1,4 +1,4 @@
-#include "cablenet/output/body_box.hpp"
+#include "cablenet/bodies/body_box.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 
 using namespace cablenet;
-using cablenet::output::body_box;
+using cablenet::bodies::body_box;
 
 namespace {
 
