@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "../support/networks.hpp"
 #include "cablenet/solve/newton_convergence.hpp"
 #include "cablenet/solve/newton_progress.hpp"
@@ -152,5 +154,24 @@ TEST(NewtonProgress, SeesThatAResidualReturns) {
   progress.note(0, 3, 0);
   EXPECT_FALSE(progress.cycles()) << "in the next solve";
   for (int i = 1; i < 6; ++i) progress.note(i, 1e-9, 1e-8);
+  EXPECT_FALSE(progress.cycles()) << "rounding alone";
+}
+
+/// What sticks and slips by turns may need several corrections to come round.
+TEST(NewtonProgress, SeesLongerCycles) {
+  solve::NewtonProgress progress;
+  const double cycle[] = {7, 2, 31, 4, 11};
+  for (int i = 0; i < 12; ++i) {
+    progress.note(i, cycle[i % 5] * (1 + 1e-6 * i), 0);
+    EXPECT_EQ(progress.returns(), i >= 5) << "correction " << i;
+    EXPECT_EQ(progress.cycles(), i >= 5) << "correction " << i;
+  }
+  progress.note(0, 7, 0);
+  EXPECT_FALSE(progress.returns()) << "what the solve before had does not count";
+  for (int i = 1; i < 12; ++i) {
+    progress.note(i, cycle[i % 5] * std::pow(0.99, i), 0);
+    EXPECT_FALSE(progress.cycles()) << "what falls by a hundredth is another residual";
+  }
+  for (int i = 0; i < 12; ++i) progress.note(i, 1e-9 * cycle[i % 5], 1e-7);
   EXPECT_FALSE(progress.cycles()) << "rounding alone";
 }

@@ -14,17 +14,18 @@ public:
   bool goes_on() const { return iteration_ - gained_at_ < patience; }
   /// The last residual is the first one, or 30 % below the best one before it.
   bool is_best() const { return is_best_; }
-  /// The last residual is the one of two corrections before: an element goes slack and taut by turns.
+  /// The last residual is the one of two corrections before, or exactly one of some corrections before: elements go
+  /// slack and taut by turns, or stick and slip.
   bool returns() const { return returns_; }
-  /// A residual of this solve has returned.
+  /// A residual of this solve has returned, and the last one is not far below it.
   bool cycles() const { return cycles_; }
 
 private:
   static constexpr int patience = 12;
 
   int iteration_ = 0, gained_at_ = 0, falls_ = 0;
-  double best_ = 0;                  ///< [N]
-  std::array<double, 2> before_{};   ///< the last two residuals [N]
+  double best_ = 0, cycled_at_ = 0;   ///< [N]
+  std::array<double, 8> before_{};    ///< the last residuals, the latest first [N]
   bool is_best_ = false, returns_ = false, cycles_ = false;
 };
 
