@@ -126,6 +126,10 @@ const char* Equilibrium::advice() const {
 void Equilibrium::add_notes(const network::Network& network, Report& report) {
   if (statics_->is_unstable()) add_note(report, "the equilibrium is not stable: a disturbance would leave it");
   add_note(report, note_of_pushing(network, statics_->pushing(), PETSC_COMM_WORLD));
+  if (statics_->leaves_friction_out())
+    add_note(report,
+             "this equilibrium is without the bed's friction: with it cables would push, or nothing was found that "
+             "stays; from here on friction holds what lies there");
   add_note(report, note_of_touchdown(network, statics_->on_bed(), PETSC_COMM_WORLD));
 }
 

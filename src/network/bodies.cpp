@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "cablenet/base/index.hpp"
+#include "cablenet/bodies/body_box.hpp"
 #include "cablenet/bodies/rigid_body.hpp"
 
 namespace cablenet::network {
@@ -98,6 +100,28 @@ SceneNode add_attachment(const scene::Body& from, const Vector3& offset, Body& b
   return end;
 }
 
+/// The corners of the box that has the body's inertia, or the spots that the scene names.  Each takes a quarter of the
+/// mean of the box's faces.  What does not turn is a sphere.
+void put_on_bed(const scene::Body& from, const scene::Scene& scene, Body& body, Network& network) {
+  const double displaced = scene.fluid ? scene.fluid->density * from.volume : 0;
+  const double weight = std::max(scene.gravity * (from.mass - displaced), 0.0);
+  if (body.properties.rotation == bodies::Rotation::none) {
+    const double radius = wetted_radius(from.volume, 0), area = std::numbers::pi * radius * radius;
+    if (radius > 0) network.bed_spots.push_back(bed_spot(body.node, radius, area, weight, 2 * radius, *scene.bed));
+    return;
+  }
+  const bodies::BodyBox box = bodies::body_box(from.mass, from.inertia);
+  const Vector3& edges = box.edges;
+  const double faces = (edges.x() * edges.y() + edges.y() * edges.z() + edges.z() * edges.x()) / 3;
+  std::vector<Vector3> corners;
+  for (int i = 0; i < 8; ++i)
+    corners.push_back(box.attitude * edges.cwiseProduct(Vector3(i & 1, i >> 1 & 1, i >> 2) - Vector3::Constant(0.5)));
+  for (const Vector3& spot : from.contact.value_or(corners)) {
+    const SceneNode node = spot.isZero(0) ? body.node : add_carried(from, spot, body, network);
+    network.bed_spots.push_back(bed_spot(node, 0, faces / 4, weight / 4, edges.maxCoeff(), *scene.bed));
+  }
+}
+
 }   // namespace
 
 AttachmentNodes add_bodies(const scene::Scene& scene, Network& network) {
@@ -110,6 +134,7 @@ AttachmentNodes add_bodies(const scene::Scene& scene, Network& network) {
     for (std::size_t k = 0; k < from.attachments.size(); ++k)
       if (used[i][k]) nodes[i][k] = add_attachment(from, from.attachments[k].offset, body, network);
     if (scene.fluid) put_in_water(from, scene.fluid->density, body, network);
+    if (scene.bed) put_on_bed(from, scene, body, network);
     network.bodies.push_back(std::move(body));
   }
   return nodes;

@@ -117,6 +117,7 @@ void Builder::place_points() {
       prescribed_[node] = true;
     }
     if (point.mass > 0 || !point.force.isZero(0)) network_.loads.push_back({node, point.mass, point.force});
+    if (const auto spot = bed_spot_of(point, node, scene_)) network_.bed_spots.push_back(*spot);
     const bool is_wet = point.volume > 0 || point.drag_area > 0 || point.added_mass > 0;
     if (is_wet && scene_.fluid && !point.motion)
       network_.wet_points.push_back({node, point_in_water(point, scene_.fluid->density)});

@@ -13,7 +13,12 @@ namespace {
 /// cable at rest lies where stiffness is constant.
 constexpr double smoothing_part = 0.2;
 
-/// The least smoothing over the cable's diameter, for cables without weight.
+/// What lies on the bed travels by mu times this part of its diameter before it slips.  It is short, so that a pull
+/// along the bed goes no farther than friction lets it.  What lies deeper than `shallow`, a part of the diameter too,
+/// travels by mu times the rest of its depth beside that: a soft bed holds softly.
+constexpr double least_travel = 0.007, shallow = 0.25;
+
+/// The least smoothing over the diameter, for what has no weight.
 constexpr double least_smoothing = 1e-6;
 
 elements::CableInWater in_water(const scene::CableType& type, double density) {
@@ -22,10 +27,19 @@ elements::CableInWater in_water(const scene::CableType& type, double density) {
           std::numbers::pi * drag * type.tangential_drag, type.diameter};
 }
 
+/// Of what presses the bed.  @param pressure [Pa]   @param size [m]
+double smoothing_of(const environment::Bed& bed, double pressure, double size) {
+  return std::max(smoothing_part * pressure / bed.stiffness, least_smoothing * size);
+}
+double grip_of(const environment::Bed& bed, double pressure, double size) {
+  if (bed.friction_stiffness > 0) return bed.friction_stiffness;
+  const double depth = pressure / bed.stiffness, travel = least_travel * size + std::max(depth - shallow * size, 0.0);
+  return pressure > 0 ? pressure / travel : bed.stiffness;
+}
+
 CableOnBed on_bed(const scene::CableType& type, const environment::Bed& bed, double density, double gravity) {
-  const double weight = gravity * (type.mass_per_length - density * type.area);
-  const double depth = weight / (bed.stiffness * type.diameter);
-  return {type.diameter, std::max(smoothing_part * depth, least_smoothing * type.diameter)};
+  const double pressure = gravity * (type.mass_per_length - density * type.area) / type.diameter;
+  return {type.diameter, smoothing_of(bed, pressure, type.diameter), grip_of(bed, pressure, type.diameter)};
 }
 
 }   // namespace
@@ -38,6 +52,20 @@ Surroundings make_surroundings(const scene::Scene& scene) {
     if (scene.bed) result.on_bed.push_back(on_bed(type, *scene.bed, density, scene.gravity));
   }
   return result;
+}
+
+BedSpot<SceneNode> bed_spot(SceneNode node, double radius, double area, double weight, double size,
+                            const environment::Bed& bed) {
+  const double pressure = weight / area;
+  return {node, radius, area, smoothing_of(bed, pressure, size), grip_of(bed, pressure, size)};
+}
+
+std::optional<BedSpot<SceneNode>> bed_spot_of(const scene::Point& point, SceneNode node, const scene::Scene& scene) {
+  const double radius = point.contact_radius.value_or(wetted_radius(point.volume, 0));
+  if (!scene.bed || point.motion || radius == 0) return std::nullopt;
+  const double displaced = scene.fluid ? scene.fluid->density * point.volume : 0;
+  const double weight = std::max(scene.gravity * (point.mass - displaced), 0.0);
+  return bed_spot(node, radius, std::numbers::pi * radius * radius, weight, 2 * radius, *scene.bed);
 }
 
 double wetted_radius(double volume, double area) {

@@ -172,6 +172,12 @@ void read_drag(Body& body, const Value& value) {
   read_rows(value, drag_table, body);
 }
 
+const std::string spots_expected = "a list of rows [x, y, z] [m]";
+Kind<std::vector<Vector3>> spots() {
+  const auto read = [](const Value& value) { return read_vectors(value, 0, "m"); };
+  return {list_form(spots_expected, vector("m").form), read, nullptr};
+}
+
 const Table<BodyKeys> body_table(
     "A rigid body.",
     {{"mass", number("kg", above(0)), required, "The mass.", &BodyKeys::mass},
@@ -193,9 +199,14 @@ const Table<BodyKeys> body_table(
      {"coupling", later(either_form(coupling_expected, {word_form({"kinematic"}), section_form(coupling_table)})),
       absent("kinematic: a cable's end is the attachment"), "How cables are fastened to the body.",
       [](Body& body, const Value& value) { body.link = read_coupling(value); }},
+     Row<BodyKeys>("contact", spots(),
+                   absent("the corners of the box that has the body's inertia; without inertia a sphere of its volume"),
+                   "Where the body touches the bed, from the centre of gravity in body axes; []: it does not.",
+                   &BodyKeys::contact)
+         .on_bed(),
      Row<BodyKeys>("volume", number("m3", at_least(0)), standard, "The water that the body displaces.",
                    &BodyKeys::volume)
-         .in_fluid(),
+         .in_fluid_or_on_bed(),
      Row<BodyKeys>("center_of_buoyancy", vector("m"), standard,
                    "Where buoyancy acts, from the centre of gravity in body axes.", &BodyKeys::center_of_buoyancy)
          .in_fluid(),

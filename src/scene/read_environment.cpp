@@ -92,9 +92,16 @@ const Table<Bed> seabed_table(
       &Bed::stiffness},
      {"damping", number("Pa s/m", at_least(0)), standard, "The pressure of the bed per speed of what sinks into it.",
       &Bed::damping},
-     {"friction", number("", at_least(0)), standard, "Coulomb's coefficient of friction.", &Bed::friction},
-     {"friction_velocity", number("m/s", above(0)), standard,
-      "The sliding speed at which friction has reached 1/sqrt(2) of Coulomb's.", &Bed::friction_velocity}});
+     {"friction", number("", at_least(0)), standard,
+      "Coulomb's coefficient of friction. What lies still is held by springs, up to this times the bed's pressure.",
+      &Bed::friction},
+     {"friction_stiffness", number("Pa/m", above(0)),
+      absent("what lies at rest travels by `friction` times 0.7 % of its diameter before it slips, and by `friction` "
+             "times what it lies deeper than a quarter of its diameter"),
+      "The pressure of friction per travel of what sticks to the bed.", &Bed::friction_stiffness},
+     {"friction_velocity", number("m/s", above(0)), absent("friction holds what lies still"),
+      "Makes friction viscous: it holds nothing still, and at this speed it has reached 1/sqrt(2) of Coulomb's.",
+      &Bed::friction_velocity}});
 
 /// The bed and the waves depend on other keys.
 struct EnvironmentKeys {
@@ -147,6 +154,9 @@ Fluid read_fluid(const Value& value, double gravity) {
 Bed read_bed(const Value& value, const std::optional<Fluid>& fluid) {
   Bed bed;
   const Section section = read_rows(value, seabed_table, bed);
+  if (bed.friction_stiffness > 0 && bed.friction_velocity > 0)
+    section.find("friction_stiffness")
+        ->fail("is not allowed beside friction_velocity, whose friction has no springs. Remove one of the two.");
   if (fluid && fluid->surface && !(bed.level < *fluid->surface))
     section.find("level")->refuse(
         fmt::format("a bed below environment.fluid.surface, which is {} [m]", *fluid->surface),

@@ -27,10 +27,14 @@ const Table<PointKeys>& point_table() {
        {"motion", motion(), absent("the point is free"), "How the point is held or moved.", &PointKeys::given_motion},
        Row<PointKeys>("volume", number("m3", at_least(0)), standard, "The water that a free point displaces.",
                       &PointKeys::volume)
-           .in_fluid(),
+           .in_fluid_or_on_bed(),
        Row<PointKeys>("drag_area", number("m2", at_least(0)), standard,
                       "The drag coefficient times the area of a free point, Cd A.", &PointKeys::drag_area)
            .in_fluid(),
+       Row<PointKeys>("contact_radius", number("m", at_least(0)), absent("that of a sphere of the point's volume"),
+                      "The radius of the sphere as which a free point touches the bed; 0: it does not.",
+                      &PointKeys::contact_radius)
+           .on_bed(),
        Row<PointKeys>("added_mass", number("kg", at_least(0)), standard, "The added mass of a free point.",
                       &PointKeys::added_mass)
            .in_fluid()});
@@ -45,7 +49,7 @@ void check_moved(const Section& section, const PointKeys& point) {
     velocity->fail(is_fixed ? "the point is fixed; expected no velocity. Remove velocity, or motion."
                             : "the point's motion says its velocity; expected none here. Remove velocity, or motion.");
   for (const Key& key : point_table().keys) {
-    const Value* value = key.needs_fluid ? section.find(key.name) : nullptr;
+    const Value* value = key.needs.empty() ? nullptr : section.find(key.name);
     if (value == nullptr) continue;
     value->fail(
         fmt::format("the point goes where its motion says, so this would do nothing; expected {} of free "

@@ -77,9 +77,9 @@ std::string value_of(const Chapter& chapter, const Key& key) {
 }
 
 std::string row(const Chapter& chapter, const Key& key) {
-  const std::string water = key.needs_fluid ? " In a fluid only." : "";
+  const std::string condition = key.needs.empty() ? "" : fmt::format(" With {} only.", key.needs);
   return fmt::format("| `{}` | {} | {} | {}{} |\n", key.name, cell(value_of(chapter, key)),
-                     cell(if_absent(*chapter.table, key)), cell(key.sentence), water);
+                     cell(if_absent(*chapter.table, key)), cell(key.sentence), condition);
 }
 
 std::string written(const Chapter& chapter) {

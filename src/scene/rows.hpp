@@ -43,15 +43,20 @@ struct Row {
   }
 
   /// Marks a key that only water gives a meaning.
-  Row in_fluid() && {
-    key.needs_fluid = true;
-    return std::move(*this);
-  }
+  Row in_fluid() && { return needing("environment.fluid"); }
+  /// Marks a key that only the bed gives a meaning.
+  Row on_bed() && { return needing("environment.seabed"); }
+  /// Marks a key that either of the two gives a meaning.
+  Row in_fluid_or_on_bed() && { return needing("environment.fluid or environment.seabed"); }
 
   Key key;
   std::function<void(const Value&, T&)> read;
 
 private:
+  Row needing(const char* section) {
+    key.needs = section;
+    return std::move(*this);
+  }
   template <class Target, class V>
   static void put(T& thing, const Target& target, V value) {
     if constexpr (!std::is_member_object_pointer_v<Target>)

@@ -47,21 +47,25 @@ public:
   }
 
   void add_types() {
-    if (scene_.fluid || scene_.cable_types.empty()) return;
+    if (scene_.cable_types.empty()) return;
     const std::vector<Named> types = read_named(*top_.find("cable_types"), "a map of cable types");
-    for (const Named& type : types) add_vacuum(type.value, keys_in(cable_types_form()));
+    for (const Named& type : types) add_idle(type.value, keys_in(cable_types_form()));
   }
 
   void add_points(const std::vector<PointDraft>& points) {
-    if (scene_.fluid) return;
-    for (const PointDraft& draft : points) add_vacuum(draft.value, keys_in(points_form()));
+    for (const PointDraft& draft : points) add_idle(draft.value, keys_in(points_form()));
   }
 
   void add_bodies(const std::vector<BodyDraft>& bodies) {
     for (const BodyDraft& draft : bodies) {
-      if (!scene_.fluid)
-        add_vacuum(draft.value, keys_in(bodies_form()));
-      else if (!draft.thing.inertia)
+      add_idle(draft.value, keys_in(bodies_form()));
+      if (!draft.thing.inertia && draft.thing.contact && scene_.bed)
+        add(value_of(draft.value, "contact"), "does nothing: a body without inertia is a sphere of its volume");
+      if (!scene_.fluid && scene_.bed && draft.thing.inertia && draft.thing.volume > 0)
+        add(value_of(draft.value, "volume"),
+            "does nothing without environment.fluid: the box of the inertia lies on the bed");
+      if (!scene_.fluid) continue;
+      if (!draft.thing.inertia)
         add_point_mass(draft.value, draft.thing);
       else if (draft.thing.volume == 0 && !draft.thing.center_of_buoyancy.isZero(0))
         add(value_of(draft.value, "center_of_buoyancy"), "does nothing without volume");
@@ -73,12 +77,18 @@ public:
 private:
   void add(const Value& value, const std::string& text) { notes_.push_back(value.said(text)); }
 
-  void add_vacuum(const Value& map, const std::vector<Key>& keys) {
-    for (const Named& given : read_named(map, "a map of keys")) {
-      const auto is_same = [&](const Key& key) { return key.needs_fluid && key.name == given.name; };
-      if (std::any_of(keys.begin(), keys.end(), is_same) && acts(given.value.node))
-        add(given.value, "does nothing without environment.fluid");
-    }
+  bool is_absent(const std::string& section) const {
+    if (section.empty()) return false;
+    const bool has_fluid = scene_.fluid && section.find("environment.fluid") != std::string::npos;
+    return !has_fluid && !(scene_.bed && section.find("environment.seabed") != std::string::npos);
+  }
+
+  /// Keys that need a section which is not there.
+  void add_idle(const Value& map, const std::vector<Key>& keys) {
+    for (const Named& given : read_named(map, "a map of keys"))
+      for (const Key& key : keys)
+        if (key.name == given.name && is_absent(key.needs) && acts(given.value.node))
+          add(given.value, "does nothing without " + key.needs);
   }
 
   void add_point_mass(const Value& map, const Body& body) {

@@ -233,7 +233,8 @@ Vector3 read_vector(const Value& value, const std::string& unit) {
 }
 
 std::vector<Vector3> read_vectors(const Value& value, std::size_t least, const std::string& unit) {
-  const std::string expected = fmt::format("a list of at least {} rows [x, y, z] [{}]", least, unit);
+  const std::string number = least > 0 ? fmt::format("at least {} ", least) : "";
+  const std::string expected = fmt::format("a list of {}rows [x, y, z] [{}]", number, unit);
   const std::vector<Value> rows = read_list(value, expected);
   if (rows.size() < least) value.refuse(expected, "Add rows.");
   std::vector<Vector3> vectors;

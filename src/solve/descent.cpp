@@ -70,6 +70,7 @@ double Descent::holding() const { return lambda_ * string_tension * total_load_;
 void Descent::soften(Vec x) {
   lambda_ = 1;
   measure_loads(x);
+  if (parts_.forces.sticks()) parts_.forces.hold_friction(x);
   const double hardest = largest_stiffness(parts_.assembler.network());
   for (double soft = softest * total_load_; soft < hardest && !parts_.progress.is_over(); soft *= hardening) {
     if (parts_.forces.is_in_flow()) parts_.forces.hold_drag(x);
@@ -82,21 +83,23 @@ void Descent::soften(Vec x) {
 bool Descent::go_on(Vec x, double goal) {
   measure_loads(x);
   lambda_ = std::min(lambda_, 1.0);
-  if (parts_.forces.is_in_flow()) return follow_drag(x, goal * load_);
+  if (parts_.forces.is_in_flow() || parts_.forces.sticks()) return follow(x, goal * load_);
   return settle(x, goal * load_, most_iterations);
 }
 
-/// Where the residual hardly falls, drag turns with what it moves, and less of it is taken anew.
-bool Descent::follow_drag(Vec x, double goal) {
+/// What has no potential is held until the descent ends.  Where the residual hardly falls, drag turns with what it
+/// moves, and less of it is taken anew.
+bool Descent::follow(Vec x, double goal) {
   double previous = infinite, share = 1;
   for (int i = 0;; ++i) {
-    parts_.forces.let_drag_follow();
+    let_follow();
     const double now = evaluate(x, false);
-    const bool goes_on = parts_.progress.note("drag", now, load_, fmt::format(", share {:.2g}", share));
+    const bool goes_on = parts_.progress.note("held", now, load_, fmt::format(", share {:.2g}", share));
     if (now <= goal || i == most_drags || !std::isfinite(now) || !goes_on) return now <= goal;
     if (now > falling * previous) share = std::max(0.5 * share, least_share);
     previous = now;
-    parts_.forces.hold_drag(x, share);
+    if (parts_.forces.is_in_flow()) parts_.forces.hold_drag(x, share);
+    if (parts_.forces.sticks()) parts_.forces.hold_friction(x, share);
     settle(x, std::max(left * now, left * goal), most_of_held);
   }
 }
@@ -181,7 +184,7 @@ bool Descent::is_lower(const Slope& slope, double share, double now, double then
 }
 
 double Descent::evaluate(Vec x, bool with_tangent) {
-  const Steadying steadying{0, turning * lambda_};
+  const Steadying steadying{0, turning * lambda_, true};
   int in_domain = parts_.forces.residual(rule_, x, r_, with_tangent ? &parts_.tangent : nullptr, steadying) ? 1 : 0;
   MPI_Allreduce(MPI_IN_PLACE, &in_domain, 1, MPI_INT, MPI_LAND, parts_.assembler.communicator());
   return in_domain != 0 ? norm(r_) : infinite;

@@ -30,6 +30,7 @@ partition::LocalNetwork in_frame(const system::Assembler& assembler, double t, c
     material.tension_only = true;
   }
   std::fill(network.velocity.begin(), network.velocity.end(), Vector3::Zero());
+  if (auto& bed = network.surroundings.bed; bed && bed->sticks()) bed->friction = 0;
   if (auto& fluid = network.surroundings.fluid) {
     fluid->waves.clear();
     if (fluid->current.empty()) fluid->current.push_back({0, Vector3::Zero()});

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "cablenet/elements/cable.hpp"
+#include "cablenet/solve/bed_lay.hpp"
 
 namespace cablenet::solve {
 namespace {
@@ -25,6 +26,9 @@ constexpr double bed_over_soft_cables = 0.01;
 
 /// The most that a bed is softened.  It is reached where the cables carry next to nothing.
 constexpr double softest_bed = 1e12;
+
+/// From how far away, over the network's extent, what moves along the bed has come.  It slips there.
+constexpr double come_from = 1e9;
 
 /// At how many times within the window a motion is looked at.
 constexpr int samples = 8;
@@ -107,7 +111,9 @@ Vector3 StaticForces::frame_velocity(const system::Assembler& assembler, double 
 
 bool StaticForces::is_in_flow() const {
   const auto& fluid = assembler_.network().surroundings.fluid;
-  return fluid && (!velocity_.isZero(0) || !fluid->current.empty());
+  if (!fluid || is_stilled_) return false;
+  const auto flows = [](const environment::CurrentLayer& layer) { return !layer.velocity.isZero(0); };
+  return !velocity_.isZero(0) || std::any_of(fluid->current.begin(), fluid->current.end(), flows);
 }
 
 /// Against soft cables a hard bed is a wall, before which Newton's steps shrink to nothing.
@@ -124,10 +130,41 @@ system::Situation StaticForces::situation(system::InternalForce internal, const 
   return {.stage = {t_, 0, 0},
           .internal = internal,
           .rule = rule,
-          .frame = holds_drag_ ? Vector3(0, 0, 0) : velocity_,
+          .frame = is_still() ? Vector3(0, 0, 0) : velocity_,
           .is_calm = true,
-          .is_still = holds_drag_,
-          .bed_softness = bed_softness(rule)};
+          .is_still = is_still(),
+          .bed_softness = bed_softness(rule),
+          .sticking = sticking_};
+}
+
+void StaticForces::let_stick(Vec x) {
+  sticking_ = system::Sticking::as_it_is;
+  const partition::LocalNetwork& network = assembler_.network();
+  const system::LocalState& state = assembler_.observe(t_, x, v_, resting_);
+  system::GripPlaces laid = laid_on_bed(network, network.position, state, assembler_.communicator());
+  // What moves along the bed has come from far.
+  const Vector3 along(velocity_.x(), velocity_.y(), 0);
+  if (!along.isZero(0))
+    for (std::optional<Vector3>& place : laid)
+      if (place) *place -= come_from * network.extent * along.normalized();
+  assembler_.grip_bed(laid);
+}
+
+void StaticForces::let_slide() {
+  sticking_ = system::Sticking::absent;
+  assembler_.grip_bed(system::GripPlaces(assembler_.network().nodes));
+}
+
+void StaticForces::hold_friction(Vec x, double share) {
+  sticking_ = system::Sticking::measured;
+  system::Situation now = situation(system::InternalForce::of_statics, {system::StaticRule::Kind::exact});
+  now.measured_share = share;
+  assembler_.begin(now, x, v_);
+  sticking_ = system::Sticking::held;
+}
+
+void StaticForces::let_friction_follow() {
+  if (holds_friction()) sticking_ = system::Sticking::as_it_is;
 }
 
 void StaticForces::keep(Vec x) {
@@ -137,7 +174,7 @@ void StaticForces::keep(Vec x) {
 bool StaticForces::residual(const system::StaticRule& rule, Vec x, Vec r, system::TangentMatrix* tangent,
                             const Steadying& steadying) {
   const system::Situation now = situation(system::InternalForce::of_statics, rule);
-  const Vec v = holds_drag_ ? Vec(resting_) : Vec(v_);
+  const Vec v = is_still() ? Vec(resting_) : Vec(v_);
   const auto add_drag = [&] {
     if (holds_drag_) check(VecAXPY(r, 1, drag_));
   };
@@ -148,8 +185,9 @@ bool StaticForces::residual(const system::StaticRule& rule, Vec x, Vec r, system
   }
   const double s = steadying.pseudo_rate;
   const bool is_linear = rule.kind == system::StaticRule::Kind::strings && rule.exponent == 1;
-  const system::TangentRequest request{
+  system::TangentRequest request{
       *tangent, {1, s, s * s}, is_linear, rule.kind == system::StaticRule::Kind::exact ? 0 : steadying.steadiness};
+  if (steadying.is_cautious) request.turning.least = 0;
   const bool in_domain = assembler_.evaluate(now, x, v, resting_, r, &request);
   tangent->publish();
   add_drag();
@@ -165,7 +203,7 @@ double StaticForces::potential(const system::StaticRule& rule, Vec x) {
 
 /// The bed is no load.  It answers the other forces, enormously where the drawn shape lies in it.
 void StaticForces::loads(Vec x, Vec r) {
-  raw_loads(x, r, holds_drag_);
+  raw_loads(x, r, is_still());
   if (holds_drag_) check(VecAXPY(r, 1, drag_));
 }
 

@@ -32,6 +32,9 @@ constexpr double slack_tension = 1e-4;
 /// The residual over the loads from which on bodies' turning is steadied less and less.
 constexpr double rough = 0.05;
 
+/// The residual over the loads down to which the slope of what slips leads out of cycles.
+constexpr double cautious = 1e-4;
+
 /// Where less than this share of a correction is taken, the next one is made in a shorter pseudo-time.
 constexpr double short_step = 0.15;
 
@@ -53,11 +56,7 @@ const char* way_of(const StaticRule& rule) {
 
 StaticNewton::StaticNewton(system::Assembler& assembler, StaticForces& forces, StaticProgress& progress, double t,
                            Vec drawn)
-    : assembler_(assembler),
-      forces_(forces),
-      progress_(progress),
-      is_in_flow_(forces.is_in_flow()),
-      tangent_(assembler.make_tangent()) {
+    : assembler_(assembler), forces_(forces), progress_(progress), tangent_(assembler.make_tangent()) {
   for (auto* vector : {&r_, &step_, &trial_}) *vector = assembler_.make_vector();
   scales_ = assembler_.force_scales(t, drawn, r_);
   for (const Vector3& position : assembler_.network().position)
@@ -85,10 +84,13 @@ bool StaticNewton::settle_as_they_are(Vec x, int iterations) {
 void StaticNewton::count_negative_pivots(Vec x) {
   // Without a shift, the pivots of what drifts freely are rounding, of either sign.
   shift_ = first_shift;
-  if (is_in_flow_) forces_.hold_drag(x);
+  is_cautious_ = false;
+  if (forces_.is_in_flow()) forces_.hold_drag(x);
+  if (forces_.sticks()) forces_.hold_friction(x);
   evaluate({StaticRule::Kind::exact}, x, true);
   factor_and_solve();
   forces_.let_drag_follow();
+  forces_.let_friction_follow();
   shift_ = 0;
 }
 
@@ -113,6 +115,7 @@ bool StaticNewton::settle(Vec x, StaticRule rule, const StaticGoal& goal) {
     check(VecNorm(x, NORM_INFINITY, &largest_coordinate_));
     largest_coordinate_ = std::max(largest_coordinate_, largest_drawn_coordinate_);
     steadiness_ = std::min(1.0, previous / (rough * reference()));
+    is_cautious_ = previous > cautious * reference();
     rule.least_tension = steadiness_ * least;
     const double now = evaluate(rule, x, true);
     const std::string details = fmt::format(", exponent {:.3g}, shift {:.3g}", rule.exponent, shift_);
@@ -154,8 +157,8 @@ bool StaticNewton::factor_and_solve() {
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
   check(KSPGetConvergedReason(ksp_, &reason));
   negative_pivots_ = 0;
-  // With drag the tangent is unsymmetric, and pivots tell nothing of stability.
-  const bool tells = !is_in_flow_ || forces_.holds_drag();
+  // With drag or friction the tangent is unsymmetric, and pivots tell nothing of stability.
+  const bool tells = (!forces_.is_in_flow() || forces_.holds_drag()) && (!forces_.sticks() || forces_.holds_friction());
   const std::optional<PivotReport> pivots = tells ? linear_.pivots() : std::nullopt;
   if (pivots) negative_pivots_ = pivots->negative;
   if (reason < 0) linear_.recover();
@@ -181,7 +184,8 @@ double StaticNewton::search(Vec x, const StaticRule& rule, double now, bool sear
 }
 
 double StaticNewton::evaluate(const StaticRule& rule, Vec x, bool with_tangent) {
-  int in_domain = forces_.residual(rule, x, r_, with_tangent ? &tangent_ : nullptr, {shift_, steadiness_}) ? 1 : 0;
+  int in_domain =
+      forces_.residual(rule, x, r_, with_tangent ? &tangent_ : nullptr, {shift_, steadiness_, is_cautious_}) ? 1 : 0;
   MPI_Allreduce(MPI_IN_PLACE, &in_domain, 1, MPI_INT, MPI_LAND, assembler_.communicator());
   return in_domain != 0 ? norm(r_) : infinite;
 }

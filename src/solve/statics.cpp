@@ -8,7 +8,6 @@
 #include <random>
 
 #include "cablenet/petsc/values.hpp"
-#include "cablenet/solve/descent.hpp"
 #include "cablenet/solve/relaxation.hpp"
 #include "failed_part.hpp"
 
@@ -36,7 +35,7 @@ constexpr double descent_goals[] = {1e-3, 1e-6, 1e-8, 1e-10};
 /// In a flow, the goal of the first descent.  A descent holds the drag.  Newton's method has its derivative, so it can
 /// take over much earlier.
 constexpr double goal_in_flow = 0.02;
-constexpr int most_after_descent = 40;
+constexpr int most_after_descent = 40, most_near = 20;
 
 /// How far nodes move to leave a saddle, over the length of the shortest element there.  Attitudes change as much.
 constexpr double disturbance = 0.01;
@@ -47,9 +46,11 @@ constexpr double settling_time = 10, standard_gravity = 9.80665;
 constexpr int longer_times = 5;
 /// Larger nets are not left to settle: that would take many minutes.
 constexpr int most_unknowns_of_nets = 5000;
-
 /// What pushes with less than this, over the largest tension, or less than rounding's share, does not push.
 constexpr double pushing_part = 1e-9;
+
+/// Likewise where friction on the bed holds it.
+constexpr double held_part = 1e-3;
 
 /// An equilibrium is near the drawn shape if no coordinate is farther from it than this, over the network's extent.
 constexpr double near = 1e-3;
@@ -82,7 +83,7 @@ bool Statics::solve() {
   forces_.loads(x_, trial_);
   check(VecNorm(trial_, NORM_INFINITY, &largest_drawn_load_));
   newton_.measure_loads(x_);
-  return conclude(find());
+  return conclude(sticks() ? find_rubbing() : find());
 }
 
 /// What is drawn in equilibrium is taken as it is, unless it bears nothing and stands on end.  Otherwise a stable shape
@@ -104,8 +105,58 @@ bool Statics::find() {
   return true;
 }
 
+bool Statics::sticks() const {
+  const auto& bed = assembler_.network().surroundings.bed;
+  return bed && bed->sticks();
+}
+
+/// What lies on the bed was laid in still water, and friction holds it there in a current.  Where friction makes cables
+/// push, or leaves a shape that is not stable, it is left out: what was laid in that shape would not have stayed there.
+bool Statics::find_rubbing() {
+  if (velocity_.isZero(0)) forces_.still(true);
+  const bool is_laid = find();
+  const bool was_taut = is_laid && is_taut(), was_unstable = is_laid && is_unstable();
+  forces_.still(false);
+  if (!is_laid) check(VecCopy(drawn_, x_));
+  forces_.let_stick(x_);
+  if (rub(was_taut) && (was_unstable || !is_unstable())) return true;
+  forces_.let_slide();
+  check(VecCopy(drawn_, x_));
+  if (progress_.is_over() || !find()) return false;
+  leaves_friction_out_ = true;
+  return true;
+}
+
+/// As if no cable could push, and then as the cables are, where some push.
+bool Statics::rub(bool was_taut) {
+  if (!rub_from_here(was_taut)) return false;
+  if (!was_taut || is_taut()) return true;
+  if (is_taut_enough() && rub_from_here(false)) return is_taut_enough();
+  disturb();
+  return rub_from_here(false) && is_taut_enough();
+}
+
+/// The equilibrium without friction is near, so Newton's method comes first.
+bool Statics::rub_from_here(bool never_pushes) {
+  const system::Vector start = assembler_.make_vector();
+  check(VecCopy(x_, start));
+  const StaticRule exact{.kind = StaticRule::Kind::exact, .never_pushes = never_pushes};
+  if (!forces_.is_in_flow() && newton_.settle(x_, exact, {0, most_near, true})) {
+    newton_.count_negative_pivots(x_);
+    return true;
+  }
+  check(VecCopy(start, x_));
+  return descend(never_pushes);
+}
+
 /// Where cables carry compression there may be more equilibria than one.  One without any compression is the lowest.
 bool Statics::is_taut() { return forces_.tensions(x_).least >= -slight_push(); }
+
+/// Friction holds what pushes slightly.
+bool Statics::is_taut_enough() {
+  const TensionRange range = forces_.tensions(x_);
+  return range.least >= -held_part * range.largest;
+}
 
 /// A frame of bars is: it is meant to stand as drawn, and its bars may carry compression.
 bool Statics::is_near_drawn() {
@@ -129,9 +180,17 @@ bool Statics::go_down() {
 
 /// Newton's method takes over where the residual is small, and gives back to the descent where that was not enough.
 bool Statics::descend(bool never_pushes) {
-  Descent descent({assembler_, forces_, newton_.tangent(), newton_.ksp(), newton_.linear(), progress_}, never_pushes);
-  const system::Vector lowest = assembler_.make_vector();
+  Descent descent(descent_parts(), never_pushes);
   descent.soften(x_);
+  return descend(descent, never_pushes);
+}
+
+Descent::Parts Statics::descent_parts() {
+  return {assembler_, forces_, newton_.tangent(), newton_.ksp(), newton_.linear(), progress_};
+}
+
+bool Statics::descend(Descent& descent, bool never_pushes) {
+  const system::Vector lowest = assembler_.make_vector();
   std::vector<double> goals(std::begin(descent_goals), std::end(descent_goals));
   if (forces_.is_in_flow()) goals.insert(goals.begin(), goal_in_flow);
   for (const double goal : goals) {
@@ -225,7 +284,10 @@ bool Statics::conclude(bool converged) {
   return converged && (imbalance_ <= enough || ends_by_rounding_);
 }
 
-std::vector<std::pair<int, double>> Statics::pushing() { return forces_.pushing(x_, slight_push()); }
+std::vector<std::pair<int, double>> Statics::pushing() {
+  return forces_.pushing(
+      x_, forces_.sticks() ? std::max(slight_push(), held_part * forces_.tensions(x_).largest) : slight_push());
+}
 
 double Statics::slight_push() { return std::max(pushing_part * forces_.tensions(x_).largest, newton_.rounding()); }
 

@@ -65,6 +65,11 @@ void Assembler::lengthen(int first, int count, double factor) {
       network_.elements[i].length *= factor;
 }
 
+void Assembler::grip_bed(const GripPlaces& places) {
+  std::get<BedTerm>(parts_->terms).grip(places);
+  std::get<BedSpotTerm>(parts_->terms).grip(places);
+}
+
 void Assembler::begin(const Situation& situation, Vec x, Vec v) {
   const OpenVectors vectors(network_, parts_->outside, x, v, nullptr, nullptr);
   const NodeData& data = vectors.data;

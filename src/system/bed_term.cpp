@@ -1,66 +1,48 @@
 #include "bed_term.hpp"
 
-#include "cablenet/environment/bed_contact.hpp"
+#include "bed_rubbing.hpp"
 #include "element_loops.hpp"
 
 namespace cablenet::system {
 namespace {
 
-/// The bed's force on an end of an element, which stands for half the element's length.
-struct BedKernel {
-  static constexpr bool owns_slots = false;
-
+/// The ends of elements, each of which stands for half an element.  Contact i is end i % 2 of element i / 2.
+struct CableEnds {
   const partition::LocalNetwork& network;
-  environment::Bed bed;
-  double softness;
-  double dt;
 
-  BedKernel(const partition::LocalNetwork& here, double by, double step)
-      : network(here), bed(*here.surroundings.bed), softness(by), dt(step) {
-    bed.stiffness /= by;
-    bed.damping /= by;
-  }
-
-  template <bool with_tangent, class Nodes, class Key>
-  bool evaluate(std::size_t element, Key node, const Nodes& nodes, NodeResponse& out) const {
-    const partition::LocalElement& e = network.elements[element];
-    const network::CableOnBed& cable = network.surroundings.on_bed[at(e.material)];
-    const double smoothing = softness * cable.smoothing;
-    const ConstVector x = nodes.x(node), v = nodes.v(node);
-    if (x.z() - 0.5 * dt * std::abs(v.z()) > bed.level + smoothing) return false;
-    const environment::BedForce push =
-        environment::bed_force<with_tangent>(bed, 0.5 * cable.diameter * e.length, smoothing, dt, x, v);
-    out.on = -push.force;
-    if constexpr (with_tangent) {
-      out.x = -push.by_x;
-      out.v = -push.by_v;
-      out.a.setZero();
-    }
-    return true;
-  }
+  const partition::LocalElement& element(std::size_t i) const { return network.elements[i / 2]; }
+  const network::CableOnBed& cable(std::size_t i) const { return network.surroundings.on_bed[at(element(i).material)]; }
+  std::size_t size() const { return 2 * network.elements.size(); }
+  LocalNode node(std::size_t i) const { return element(i).node[i % 2]; }
+  double reach(std::size_t) const { return 0; }
+  double area(std::size_t i) const { return 0.5 * cable(i).diameter * element(i).length; }
+  double smoothing(std::size_t i) const { return cable(i).smoothing; }
+  double grip(std::size_t i) const { return cable(i).grip; }
 };
 
 }   // namespace
 
+BedTerm::BedTerm(const partition::LocalNetwork& network) : Term(network) { grip(GripPlaces(network.nodes)); }
+
+void BedTerm::grip(const GripPlaces& places) {
+  if (sticks()) put_grips(CableEnds{network_}, *network_.surroundings.bed, places, grips_);
+}
+
+void BedTerm::begin_step(Evaluation& evaluation) {
+  if (sticks()) begin_rubbing(CableEnds{network_}, *network_.surroundings.bed, evaluation, grips_);
+}
+
 void BedTerm::add(Evaluation& evaluation) {
-  const double softness = evaluation.situation.bed_softness;
-  if (!network_.surroundings.bed || softness == 0) return;
-  BedKernel kernel(network_, softness, evaluation.situation.stage.dt);
-  if (evaluation.situation.internal == InternalForce::of_statics) kernel.bed.damping = 0;
-  add_to_ends(evaluation, kernel, evaluation.target.shift);
+  const auto& bed = network_.surroundings.bed;
+  if (!bed || evaluation.situation.bed_softness == 0) return;
+  visit_bed(CableEnds{network_}, *bed, evaluation.situation, evaluation.target.turning.is_cautious(), grips_,
+            [&](const auto& kernel) { add_to_ends(evaluation, kernel, evaluation.target.shift); });
 }
 
 void BedTerm::add_potential(const Situation& situation, const LocalState& state, double& sum) const {
   const auto& bed = network_.surroundings.bed;
-  const double softness = situation.bed_softness;
-  if (!bed || softness == 0) return;
-  for (const partition::LocalElement& e : own_elements()) {
-    const network::CableOnBed& cable = network_.surroundings.on_bed[at(e.material)];
-    const double stiffness = bed->stiffness / softness * 0.5 * cable.diameter * e.length;
-    for (const LocalNode node : e.node)
-      sum += stiffness *
-             environment::indentation_integral(bed->level - state.position(node).z(), softness * cable.smoothing);
-  }
+  if (!bed || situation.bed_softness == 0) return;
+  sum += bed_potential(CableEnds{network_}, 2 * own_elements().size(), *bed, situation, grips_, state);
 }
 
 void BedTerm::add_scales(const LocalState&, ForceSums& sums) const {
@@ -71,11 +53,14 @@ void BedTerm::add_scales(const LocalState&, ForceSums& sums) const {
 }
 
 Vector3 BedTerm::end_force(const LocalState& state, int element, std::size_t end) const {
-  if (!network_.surroundings.bed) return Vector3::Zero();
   NodeResponse response;
-  const LocalNode node = network_.elements[at(element)].node[end];
-  const bool touches = BedKernel(network_, 1, 0).evaluate<false>(at(element), node, StateNodes{state}, response);
-  return touches ? response.on : Vector3::Zero();
+  response.on.setZero();
+  if (!network_.surroundings.bed) return response.on;
+  const std::size_t contact = 2 * at(element) + end;
+  visit_bed(CableEnds{network_}, *network_.surroundings.bed, {}, false, grips_, [&](const auto& kernel) {
+    kernel.template evaluate<false>(contact, kernel.contacts.node(contact), StateNodes{state}, response);
+  });
+  return response.on;
 }
 
 }   // namespace cablenet::system

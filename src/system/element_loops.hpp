@@ -46,14 +46,15 @@ void add_to_elements(Evaluation& evaluation, const Kernel& kernel, const Shift& 
   });
 }
 
-/// A kernel of one node on both ends of all elements.
+/// A kernel of one node on both ends of all elements.  It is told 2 element + end.
 template <class Kernel>
 void add_to_ends(Evaluation& evaluation, const Kernel& kernel, const Shift& shift) {
   const partition::LocalNetwork& network = evaluation.network;
   const PairSlots* const slots = evaluation.target.elements;
   visit_ranges(evaluation, kernel, shift, [&](Range range, const auto scatter) {
     for (std::size_t i = at(range.first); i < at(range.last); ++i)
-      for (std::size_t k = 0; k < 2; ++k) scatter.node(i, scatter.nodes.key(network.elements[i], k), slots[i][3 * k]);
+      for (std::size_t k = 0; k < 2; ++k)
+        scatter.node(2 * i + k, scatter.nodes.key(network.elements[i], k), slots[i][3 * k]);
   });
 }
 

@@ -72,7 +72,7 @@ private:
       add(wave.amplitude, wave.frequency, wave.number, wave.direction.x(), wave.direction.y(), wave.phase);
   }
   void add(const environment::Bed& bed) {
-    add(bed.level, bed.stiffness, bed.damping, bed.friction, bed.friction_velocity);
+    add(bed.level, bed.stiffness, bed.damping, bed.friction, bed.friction_stiffness, bed.friction_velocity);
   }
   void add(const scene::CableType& type) {
     add(type.name, type.mass_per_length, type.axial_stiffness, type.tension_only, type.axial_damping);
@@ -81,7 +81,7 @@ private:
   }
   void add(const scene::Point& point, const scene::Time& time) {
     add(point.name, point.position, point.velocity, point.mass, point.force);
-    add(point.volume, point.drag_area, point.added_mass);
+    add(point.volume, point.drag_area, point.added_mass, point.contact_radius);
     for (const double share : {0.0, 0.3, 0.8})
       if (point.force_law) add(point.force_law->at(time.start + share * (time.end - time.start)));
     if (!point.motion) return;
@@ -94,6 +94,7 @@ private:
     add(body.name, body.mass, body.inertia, body.position, body.attitude.toRotationMatrix().eval(), body.velocity);
     add(body.angular_velocity, body.force, body.torque, body.rotation, body.volume, body.center_of_buoyancy);
     add(body.linear_drag, body.quadratic_drag, body.added_mass);
+    if (body.contact) add(*body.contact);
     if (body.link) add(static_cast<int>(body.link->kind), body.link->axial_stiffness);
     for (const scene::Attachment& attachment : body.attachments) add(attachment.name, attachment.offset);
   }

@@ -5,11 +5,12 @@
 namespace cablenet::environment {
 namespace {
 
-const Bed bed{-20, 3e5, 4e4, 0.6, 0.02};
+const Bed bed{-20, 3e5, 4e4, 0.6, 0, 0.02};
+const ViscousFriction friction{bed.friction, bed.friction_velocity};
 constexpr double area = 0.35, smoothing = 0.04;
 
 BedForce at(const Vector3& x, const Vector3& v, double dt = 0) {
-  return bed_force<false>(bed, area, smoothing, dt, x, v);
+  return bed_force<false>(bed, area, smoothing, dt, x, v, friction);
 }
 
 TEST(BedForce, IsStiffnessTimesDepthBelowTheBedAndNothingAbove) {
@@ -21,8 +22,8 @@ TEST(BedForce, IsStiffnessTimesDepthBelowTheBedAndNothingAbove) {
 
 TEST(BedForce, IsContinuousWhereTheParabolaJoins) {
   for (const double p : {-smoothing, smoothing}) {
-    const BedForce above = bed_force<true>(bed, area, smoothing, 0, {0, 0, -20 - p + 1e-12}, {0.3, 0, 0});
-    const BedForce below = bed_force<true>(bed, area, smoothing, 0, {0, 0, -20 - p - 1e-12}, {0.3, 0, 0});
+    const BedForce above = bed_force<true>(bed, area, smoothing, 0, {0, 0, -20 - p + 1e-12}, {0.3, 0, 0}, friction);
+    const BedForce below = bed_force<true>(bed, area, smoothing, 0, {0, 0, -20 - p - 1e-12}, {0.3, 0, 0}, friction);
     EXPECT_LE((above.force - below.force).norm(), 1e-6);
     EXPECT_LE((above.by_x - below.by_x).norm(), 1e-4);
   }
@@ -88,7 +89,7 @@ TEST(BedForce, GrowsFromZeroWhereAPathTouchesTheBed) {
 
 void expect_derivatives(const Vector3& x, const Vector3& v, double dt) {
   const double h = 1e-6;
-  const BedForce force = bed_force<true>(bed, area, smoothing, dt, x, v);
+  const BedForce force = bed_force<true>(bed, area, smoothing, dt, x, v, friction);
   EXPECT_EQ(force.force, at(x, v, dt).force);
   for (int k = 0; k < 3; ++k) {
     const Vector3 step = h * Vector3::Unit(k);

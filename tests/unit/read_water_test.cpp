@@ -119,11 +119,17 @@ TEST(ReadWater, BedAndItsDefaults) {
   EXPECT_EQ(bare.stiffness, 3e6);
   EXPECT_EQ(bare.damping, 0);
   EXPECT_EQ(bare.friction, 0);
-  EXPECT_EQ(bare.friction_velocity, 0.01);
-  const Bed full = bed_of("level: 2, stiffness: 1, damping: 3, friction: 0.4, friction_velocity: 0.5");
-  EXPECT_EQ(full.damping, 3);
-  EXPECT_EQ(full.friction, 0.4);
-  EXPECT_EQ(full.friction_velocity, 0.5);
+  EXPECT_EQ(bare.friction_stiffness, 0);
+  EXPECT_EQ(bare.friction_velocity, 0);
+  EXPECT_FALSE(bare.sticks());
+  const Bed viscous = bed_of("level: 2, stiffness: 1, damping: 3, friction: 0.4, friction_velocity: 0.5");
+  EXPECT_EQ(viscous.damping, 3);
+  EXPECT_EQ(viscous.friction, 0.4);
+  EXPECT_EQ(viscous.friction_velocity, 0.5);
+  EXPECT_FALSE(viscous.sticks());
+  const Bed sticky = bed_of("level: 2, stiffness: 1, friction: 0.4, friction_stiffness: 7");
+  EXPECT_EQ(sticky.friction_stiffness, 7);
+  EXPECT_TRUE(sticky.sticks());
 }
 
 TEST(ReadWater, AreaAndDiameterEachHaveTheirJob) {
@@ -181,6 +187,7 @@ TEST(ReadWater, EveryKeyIsCopiedByRepeat) {
   EXPECT_EQ(scene.bed->friction_velocity, 0.02);
   EXPECT_EQ(scene.points.at(6).name, "free[4]");
   EXPECT_EQ(scene.points[6].drag_area, 0.01);
+  EXPECT_EQ(scene.points[6].contact_radius, 0.04);
   EXPECT_EQ(scene.bodies.at(3).name, "lead[2]");
   EXPECT_EQ(scene.bodies[3].volume, 4.4e-4);
   ASSERT_EQ(scene.notes.size(), 1u);
@@ -192,14 +199,50 @@ TEST(ReadWater, NotesOfKeysOutOfWater) {
   EXPECT_EQ(hanging(types, ", volume: 0.1, drag_area: 0", time).notes,
             (Notes{"water.yaml:2: cable_types.rope.normal_drag: does nothing without environment.fluid",
                    "water.yaml:2: cable_types.rope.added_mass: does nothing without environment.fluid",
-                   "water.yaml:5: points.b.volume: does nothing without environment.fluid"}));
+                   "water.yaml:5: points.b.volume: does nothing without environment.fluid or environment.seabed"}));
   EXPECT_EQ(body_notes("volume: 1, center_of_buoyancy: [0, 0, 1], drag: {linear: [1, 0, 0, 0, 0, 0]},\n"
                        "    added_mass: [0, 0, 0, 0, 0, 1]",
                        ""),
-            (Notes{"water.yaml:2: bodies.fish.volume: does nothing without environment.fluid",
+            (Notes{"water.yaml:2: bodies.fish.volume: does nothing without environment.fluid or environment.seabed",
                    "water.yaml:2: bodies.fish.center_of_buoyancy: does nothing without environment.fluid",
                    "water.yaml:2: bodies.fish.drag: does nothing without environment.fluid",
                    "water.yaml:3: bodies.fish.added_mass: does nothing without environment.fluid"}));
+}
+
+TEST(ReadWater, NotesOfKeysWithoutABed) {
+  const std::string bed = "environment: {seabed: {level: -20, stiffness: 1}}\n";
+  const std::string contact = "contact: [[0, 0, -1]], ", turns = "inertia: [1, 1, 1]";
+  EXPECT_EQ(hanging(rope, ", contact_radius: 0.1", time).notes,
+            Notes{"water.yaml:5: points.b.contact_radius: does nothing without environment.seabed"});
+  EXPECT_EQ(hanging(rope, ", contact_radius: 0", time).notes, Notes{});
+  EXPECT_EQ(body_notes(contact + turns, water),
+            Notes{"water.yaml:2: bodies.fish.contact: does nothing without environment.seabed"});
+  EXPECT_EQ(body_notes("contact: [], " + turns, ""), Notes{});
+  EXPECT_EQ(hanging(rope + ", diameter: 0.1", ", contact_radius: 0.1", time + bed).notes, Notes{});
+  EXPECT_EQ(body_notes(contact + turns, bed), Notes{});
+  EXPECT_EQ(body_notes(contact + "volume: 1", "environment: {fluid: {density: 1}, seabed: {level: -20, stiffness: 1}}"),
+            Notes{"water.yaml:2: bodies.fish.contact: does nothing: a body without inertia is a sphere of its volume"});
+}
+
+/// What has a volume and no inertia lies on the bed as a sphere.
+TEST(ReadWater, NotesOfVolumesOnABed) {
+  const std::string bed = "environment: {seabed: {level: -20, stiffness: 1}}\n";
+  EXPECT_EQ(hanging(rope + ", diameter: 0.1", ", volume: 0.1", time + bed).notes, Notes{});
+  EXPECT_EQ(body_notes("volume: 1", bed), Notes{});
+  EXPECT_EQ(
+      body_notes("inertia: [1, 1, 1], volume: 1", bed),
+      Notes{"water.yaml:2: bodies.fish.volume: does nothing without environment.fluid: the box of the inertia lies "
+            "on the bed"});
+}
+
+TEST(ReadWater, PointsAndBodiesOnTheBed) {
+  const Scene scene = hanging(rope, ", contact_radius: 0.1", time);
+  EXPECT_EQ(scene.points[1].contact_radius, 0.1);
+  EXPECT_EQ(hanging(rope, "", time).points[1].contact_radius, std::nullopt);
+  EXPECT_EQ(with_body("contact: [[1, 2, 3], [4, 5, 6]]", "").bodies.at(0).contact,
+            (std::vector<Vector3>{{1, 2, 3}, {4, 5, 6}}));
+  EXPECT_EQ(with_body("contact: []", "").bodies.at(0).contact, std::vector<Vector3>{});
+  EXPECT_EQ(with_body("inertia: [1, 1, 1]", "").bodies.at(0).contact, std::nullopt);
 }
 
 TEST(ReadWater, NotesOfPointMasses) {

@@ -4,6 +4,7 @@
 
 #include "cablenet/base/linear_algebra.hpp"
 #include "cablenet/environment/bed.hpp"
+#include "cablenet/environment/bed_friction.hpp"
 
 /// Contact with a flat seabed.  Tests: tests/unit/bed_test.cpp
 namespace cablenet::environment {
@@ -64,41 +65,40 @@ inline BedPressure bed_pressure(const Bed& bed, double smoothing, double p, doub
   return {bed.stiffness * mean + rate * (end.P - start.P), -by_p0 - by_p1, 0.5 * dt * (by_p0 - by_p1)};
 }
 
-/// The bed's force on a node at x that moves at v.  The node lies p = level - z below the bed, and v_t is its
-/// horizontal velocity.  mu is Bed::friction and v_s is Bed::friction_velocity.  The force has two parts:
-///   upwards        N = area (stiffness P(p) + damping dP(p)/dt)
-///   along the bed  -mu max(N, 0) v_t/sqrt(v_t^2 + v_s^2)
+/// The bed's force on a node at x that moves at v.  The node lies p = level - z below the bed.  The force upwards is
+///   N = area (stiffness P(p) + damping dP(p)/dt)
 /// The indentation P is p where p >= smoothing and 0 where p <= -smoothing.  Between the two it is the parabola
 /// (p + smoothing)^2/(4 smoothing), so that P' is continuous.
 /// In a step of length dt, N is the mean over the node's path x + tau v, |tau| <= dt/2.  The force that stops a falling
 /// node thus grows from zero with the part of the step in which the node is in contact.  Without the mean, damping
 /// would set in at its full size, and Newton's method would not get over that jump.
-/// @param area       diameter x length of the cable that the node stands for [m^2]
+/// @param area       of the cable that the node stands for: diameter x length [m^2]
 /// @param smoothing  half the range of depths over which contact sets in [m], > 0
 /// @param dt         length of the step [s]; 0 gives N at an instant
+/// @param friction   a law of bed_friction.hpp
 /// Limits: where a node leaves the bed fast, damping exceeds stiffness and N pulls the node down.
-template <bool with_tangent>
-BedForce bed_force(const Bed& bed, double area, double smoothing, double dt, const Vector3& x, const Vector3& v) {
+template <bool with_tangent, class Friction>
+BedForce bed_force(const Bed& bed, double area, double smoothing, double dt, const Vector3& x, const Vector3& v,
+                   const Friction& friction) {
   BedForce result{Vector3::Zero()};
   const double p = bed.level - x.z();
-  if (p + 0.5 * dt * std::abs(v.z()) <= -smoothing) return result;
-  const BedPressure pressure = bed_pressure(bed, smoothing, p, v.z(), dt);
+  const bool touches = p + 0.5 * dt * std::abs(v.z()) > -smoothing;
+  const BedPressure pressure = touches ? bed_pressure(bed, smoothing, p, v.z(), dt) : BedPressure{0, 0, 0};
   const double N = area * pressure.N, N_by_z = area * pressure.by_z, N_by_v = area * pressure.by_v;
   result.force.z() = N;
   if constexpr (with_tangent) {
     result.by_x(2, 2) = N_by_z;
     result.by_v(2, 2) = N_by_v;
   }
-  if (bed.friction == 0 || N <= 0) return result;
-  const Vector3 along(v.x(), v.y(), 0);
-  const double speed = std::sqrt(along.squaredNorm() + bed.friction_velocity * bed.friction_velocity);
-  const Vector3 per_N = -bed.friction / speed * along;
-  result.force += N * per_N;
-  if constexpr (with_tangent) {
-    result.by_x.col(2) += N_by_z * per_N;
-    result.by_v.col(2) += N_by_v * per_N;
-    result.by_v.topLeftCorner<2, 2>().diagonal().array() -= bed.friction * N / speed;
-    result.by_v -= N / (speed * speed) * per_N * along.transpose();
+  if constexpr (Friction::acts) {
+    const FrictionForce rub = friction.template at<with_tangent>(N, x, v);
+    result.force += rub.force;
+    if constexpr (with_tangent) {
+      result.by_x += rub.by_x;
+      result.by_v += rub.by_v;
+      result.by_x.col(2) += N_by_z * rub.by_N;
+      result.by_v.col(2) += N_by_v * rub.by_N;
+    }
   }
   return result;
 }

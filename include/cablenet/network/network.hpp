@@ -14,7 +14,8 @@
 
 /// The whole discretised network, in the scene's own numbering: points first, then the bodies' nodes, then the nets'
 /// nodes, then each cable's inner nodes from end to end.  A body's nodes are its centre of gravity and those at its
-/// attachments and at its centre of buoyancy.  The network is the same on every rank, and immutable once built.
+/// attachments, at its centre of buoyancy and at its spots on the bed.  The network is the same on every rank, and
+/// immutable once built.
 namespace cablenet::network {
 
 struct Element {
@@ -50,7 +51,8 @@ struct Body {
   double reach = 0;
 };
 
-/// A node that moves with a body and has no unknowns of its own: an attachment, or the centre of buoyancy.
+/// A node that moves with a body and has no unknowns of its own: an attachment, the centre of buoyancy, or a spot that
+/// touches the bed.
 struct CarriedNode {
   SceneNode node;
   int body;         ///< index into Network::bodies
@@ -95,6 +97,7 @@ struct Network {
   std::vector<Link<SceneNode>> links;
   Surroundings surroundings;
   std::vector<WetPoint<SceneNode>> wet_points;
+  std::vector<BedSpot<SceneNode>> bed_spots;
   std::vector<Span> spans;   ///< the scene's cables, then its nets
   std::vector<Pretension> pretensions;
   std::vector<scene::Point> points;    ///< the scene's

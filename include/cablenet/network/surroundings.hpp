@@ -2,6 +2,7 @@
 #include <optional>
 #include <vector>
 
+#include "cablenet/base/index.hpp"
 #include "cablenet/bodies/body_data.hpp"
 #include "cablenet/elements/cable_data.hpp"
 #include "cablenet/environment/bed.hpp"
@@ -20,6 +21,7 @@ namespace cablenet::network {
 struct CableOnBed {
   double diameter;    ///< [m]
   double smoothing;   ///< half the range of depths over which contact sets in [m], > 0
+  double grip;        ///< pressure of friction per travel of what sticks [Pa/m], > 0
 };
 
 /// A node on which water acts directly: a point, or a body's centre of buoyancy.
@@ -27,6 +29,16 @@ template <class Node>
 struct WetPoint {
   Node node;
   bodies::PointInWater water;
+};
+
+/// A node that touches the bed beside cables: a point as a sphere, or a spot of a body.
+template <class Node>
+struct BedSpot {
+  Node node;
+  double radius;      ///< how far the spot reaches below its node [m], >= 0
+  double area;        ///< on which the bed presses [m^2], > 0
+  double smoothing;   ///< as of CableOnBed [m]
+  double grip;        ///< likewise [Pa/m]
 };
 
 struct Surroundings {
@@ -39,6 +51,14 @@ struct Surroundings {
 };
 
 Surroundings make_surroundings(const scene::Scene& scene);
+
+/// A spot on which a weight rests.
+/// @param weight  on it, less its buoyancy [N]   @param size  of what rests [m]
+BedSpot<SceneNode> bed_spot(SceneNode node, double radius, double area, double weight, double size,
+                            const environment::Bed& bed);
+
+/// A free point touches the bed as a sphere.
+std::optional<BedSpot<SceneNode>> bed_spot_of(const scene::Point& point, SceneNode node, const scene::Scene& scene);
 
 /// The radius of the sphere with this volume or, where the volume is 0, with this cross-section.  [m]
 double wetted_radius(double volume, double area);

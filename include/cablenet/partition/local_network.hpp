@@ -87,6 +87,7 @@ struct LocalNetwork {
   std::vector<elements::CableMaterial> materials;
   network::Surroundings surroundings;
   std::vector<network::WetPoint<LocalNode>> wet_points;   ///< at nodes that this rank speaks for
+  std::vector<network::BedSpot<LocalNode>> bed_spots;     ///< likewise
   double gravity = 0;                                     ///< [m/s^2] along -z
   /// Loads that depend on time are taken at this time, whatever the time is.  [s]
   std::optional<double> held_time;

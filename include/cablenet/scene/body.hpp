@@ -46,7 +46,10 @@ struct Body {
   std::array<double, 6> linear_drag{};            ///< along and about the body axes [N s/m], [N m s]
   std::array<double, 6> quadratic_drag{};         ///< [N s^2/m^2], [N m s^2]
   std::array<double, 6> added_mass{};             ///< [kg], [kg m^2]
-  std::optional<Link> link;                       ///< without one, cables end on the attachments themselves
+  /// Where the body touches the bed, from the centre of gravity, body axes [m].  None: at the corners of its inertia's
+  /// box.
+  std::optional<std::vector<Vector3>> contact;
+  std::optional<Link> link;   ///< without one, cables end on the attachments themselves
 };
 
 }   // namespace cablenet::scene

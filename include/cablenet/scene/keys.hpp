@@ -70,7 +70,7 @@ struct Key {
   std::string standard;   ///< what an absent key stands for, as it would be written; empty: see `absent`
   std::string absent;     ///< what an absent key means, in words
   std::string sentence;
-  bool needs_fluid = false;   ///< does nothing in a scene without environment.fluid
+  std::string needs = {};   ///< the section without which the key does nothing; empty: none
 };
 
 /// The keys of one kind of section.

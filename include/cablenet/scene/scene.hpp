@@ -36,16 +36,17 @@ struct CableType {
 
 struct Point {
   std::string name;
-  std::string where;                    ///< "file:line" for messages
-  Vector3 position = Vector3::Zero();   ///< drawn [m]; a prescribed point is where its motion says
-  Vector3 velocity = Vector3::Zero();   ///< [m/s]
-  double mass = 0;                      ///< [kg]
-  Vector3 force = Vector3::Zero();      ///< constant [N], world frame
-  std::optional<ForceLaw> force_law;    ///< a force that depends on time; none: `force` alone acts
-  std::optional<Motion> motion;         ///< none: the point is free
-  double volume = 0;                    ///< [m^3]
-  double drag_area = 0;                 ///< Cd A [m^2]
-  double added_mass = 0;                ///< [kg]
+  std::string where;                      ///< "file:line" for messages
+  Vector3 position = Vector3::Zero();     ///< drawn [m]; a prescribed point is where its motion says
+  Vector3 velocity = Vector3::Zero();     ///< [m/s]
+  double mass = 0;                        ///< [kg]
+  Vector3 force = Vector3::Zero();        ///< constant [N], world frame
+  std::optional<ForceLaw> force_law;      ///< a force that depends on time; none: `force` alone acts
+  std::optional<Motion> motion;           ///< none: the point is free
+  double volume = 0;                      ///< [m^3]
+  double drag_area = 0;                   ///< Cd A [m^2]
+  double added_mass = 0;                  ///< [kg]
+  std::optional<double> contact_radius;   ///< on the bed [m]; none: that of the volume's sphere
 };
 
 struct PointEnd {

@@ -36,8 +36,8 @@ public:
   };
   /// @param never_pushes  all cables are tension_only
   Descent(const Parts& parts, bool never_pushes);
-  /// Afterwards drag follows the shape.
-  ~Descent() { parts_.forces.let_drag_follow(); }
+  /// Afterwards drag and friction follow the shape.
+  ~Descent() { let_follow(); }
   Descent(const Descent&) = delete;
   Descent& operator=(const Descent&) = delete;
 
@@ -53,8 +53,12 @@ private:
     double all, loads;
   };
 
+  void let_follow() {
+    parts_.forces.let_drag_follow();
+    parts_.forces.let_friction_follow();
+  }
   void measure_loads(Vec x);
-  bool follow_drag(Vec x, double goal);
+  bool follow(Vec x, double goal);
   bool settle(Vec x, double goal, int most);
   bool correct(Vec x, Slope& slope);
   double search(Vec x, const Slope& slope, double now);

@@ -16,6 +16,8 @@ struct TensionRange {
 struct Steadying {
   double pseudo_rate = 0;   ///< [1/s]
   double steadiness = 0;    ///< as in system::TangentRequest; none with system::StaticRule::exact
+  /// What slips is taken as in environment::StickFriction::is_cautious.
+  bool is_cautious = false;
 };
 
 /// The network's forces at an instant, in a frame in which the network is at rest.  There is no inertia, and no waves.
@@ -34,6 +36,8 @@ public:
 
   /// Water moves past the frame.  Not collective.
   bool is_in_flow() const;
+  /// Stops the water, or lets it flow again.  Not collective.
+  void still(bool stops) { is_stilled_ = stops; }
   /// Keeps the elements' directions at x.  system::StaticRule::ropes needs those of the iterate before.
   void keep(Vec x);
   /// Holds the drag: from here on it no longer depends on the shape.  It becomes share * drag at x + (1 - share) * what
@@ -42,6 +46,19 @@ public:
   /// From here on the drag follows the shape.
   void let_drag_follow() { holds_drag_ = false; }
   bool holds_drag() const { return holds_drag_; }
+
+  /// Springs of friction hold what lies on the bed, from where it was laid (bed_lay.hpp) before it came to x.  Before
+  /// this is called there is no such friction.
+  void let_stick(Vec x);
+  /// There is none again, until a run through time begins.
+  void let_slide();
+  bool sticks() const { return sticking_ != system::Sticking::absent; }
+  /// Holds the pressure that limits friction, so that friction has a potential.  It becomes share * that at x +
+  /// (1 - share) * what was held before.
+  void hold_friction(Vec x, double share = 1);
+  /// From here on the limit follows the pressure.
+  void let_friction_follow();
+  bool holds_friction() const { return sticking_ == system::Sticking::held; }
 
   /// r = internal forces - loads; with a matrix, also dr/dx + s^2 M + s dr/dv, s the pseudo-rate, published.  [N]
   /// @returns false on a rank where it is not defined
@@ -64,6 +81,7 @@ public:
 
 private:
   system::Situation situation(system::InternalForce internal, const system::StaticRule& rule) const;
+  bool is_still() const { return holds_drag_ || is_stilled_; }
   void raw_loads(Vec x, Vec r, bool is_still);
   double bed_softness(const system::StaticRule& rule) const;
 
@@ -72,7 +90,8 @@ private:
   Vector3 velocity_;
   double stiffest_bed_;    ///< the largest stiffness of a node's contact over an element's EA/L, times EA [N]
   double softest_cable_;   ///< the least EA [N]
-  bool holds_drag_ = false;
+  bool holds_drag_ = false, is_stilled_ = false;
+  system::Sticking sticking_ = system::Sticking::absent;
   system::Vector v_, resting_, drag_, scratch_;
 };
 

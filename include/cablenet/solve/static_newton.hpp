@@ -73,13 +73,13 @@ private:
   system::Assembler& assembler_;
   StaticForces& forces_;
   StaticProgress& progress_;
-  bool is_in_flow_;
   system::ForceScales scales_;
   system::TangentMatrix tangent_;
   KrylovSolver ksp_;
   LinearSolver linear_;
   system::Vector r_, step_, trial_;
   double steadiness_ = 1;
+  bool is_cautious_ = false;
   double shift_ = 0;                      ///< [1/s]
   double load_ = 0, total_load_ = 0;      ///< [N]
   double largest_drawn_coordinate_ = 0;   ///< [m]

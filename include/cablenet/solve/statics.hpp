@@ -1,4 +1,5 @@
 #pragma once
+#include "cablenet/solve/descent.hpp"
 #include "cablenet/solve/observers.hpp"
 #include "cablenet/solve/static_newton.hpp"
 
@@ -55,6 +56,8 @@ public:
   const std::string& failure() const { return failure_; }
   /// If no cable could push, there would be an equilibrium.  It was found where solve() found none.
   bool is_there_without_pushing() const { return is_there_without_pushing_; }
+  /// Friction that holds was left out: with it no equilibrium was found, or only one that pushes or is not stable.
+  bool leaves_friction_out() const { return leaves_friction_out_; }
   FailedPart failed_part();
   std::string linear_solver() const { return newton_.linear().describe(); }
 
@@ -66,6 +69,13 @@ private:
   bool go_directly();
   bool go_down();
   bool descend(bool never_pushes);
+  bool descend(Descent& descent, bool never_pushes);
+  Descent::Parts descent_parts();
+  bool sticks() const;
+  bool find_rubbing();
+  bool rub(bool was_taut);
+  bool rub_from_here(bool never_pushes);
+  bool is_taut_enough();
   bool leave_saddle();
   void disturb();
   bool go_by_strings();
@@ -81,7 +91,7 @@ private:
   system::Vector x_, drawn_, trial_;
   StaticNewton newton_;
   double largest_load_ = 0, imbalance_ = 0;
-  bool ends_by_rounding_ = false, is_there_without_pushing_ = false;
+  bool ends_by_rounding_ = false, is_there_without_pushing_ = false, leaves_friction_out_ = false;
   PetscReal largest_drawn_load_ = 0;   ///< on a node [N]
   std::string failure_;
 };

@@ -38,6 +38,8 @@ public:
   void fill_initial(Vec x, Vec v) const;
   /// Makes x, all of it moving at `velocity` [m/s] and without turning, the network's start.
   void start_from(double t, Vec x, const Vector3& velocity);
+  /// Springs of friction hold the local nodes to these places on the bed.  Not collective.
+  void grip_bed(const GripPlaces& places);
   /// Multiplies the unstretched lengths of the network's elements [first, first + count).  Not collective.
   void lengthen(int first, int count, double factor);
 

@@ -2,6 +2,7 @@
 #include <limits>
 #include <optional>
 
+#include "cablenet/base/index.hpp"
 #include "cablenet/base/linear_algebra.hpp"
 #include "cablenet/base/shift.hpp"
 #include "cablenet/elements/static_rule.hpp"
@@ -20,6 +21,17 @@ enum class InternalForce {
   none          ///< no force; this leaves the mass matrix
 };
 
+/// Where nodes hold the bed, if they do.  [m]
+using GripPlaces = Table<LocalNode, std::optional<Vector3>>;
+
+/// How the springs of friction on the bed pull (environment::StickFriction).
+enum class Sticking {
+  as_it_is,   ///< up to what the bed's pressure lets them
+  absent,     ///< not at all
+  measured,   ///< as it is; Assembler::begin notes the pressures
+  held        ///< up to what the noted pressures let them, wherever nodes are
+};
+
 /// Under which an evaluation is made.  The default is a step of the scene as it is.
 struct Situation {
   Stage stage;
@@ -31,6 +43,8 @@ struct Situation {
   bool is_calm = false;      ///< The water has no waves.
   bool is_still = false;     ///< The water has neither waves nor current.
   double bed_softness = 1;   ///< The bed is so many times softer, its smoothing so many times wider.  0: no bed.
+  Sticking sticking = Sticking::as_it_is;
+  double measured_share = 1;   ///< of what Sticking::measured notes; the rest is what was noted before
 };
 
 /// Which tension turns the chords in a tangent: the force's own, or the one that the last tangent of the running solve
@@ -39,6 +53,9 @@ struct TurningRule {
   bool is_predicted = false;
   bool is_first = true;                                      ///< of the solve
   double least = -std::numeric_limits<double>::infinity();   ///< [N]
+
+  /// The tangent is to lead out of a cycle.
+  bool is_cautious() const { return least >= 0; }
 };
 
 /// Where a tangent goes, and what it is by.

@@ -1,0 +1,114 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "cablenet/base/linear_algebra.hpp"
+
+/// Friction of what lies on a flat bed, along the bed.  A law answers with the force on a node that is pressed to the
+/// bed by N [N].  Tests: tests/unit/bed_friction_test.cpp
+namespace cablenet::environment {
+
+/// A force along the bed and its derivatives by the node's position and velocity and by N.  The derivatives are set
+/// where they are asked for.
+struct FrictionForce {
+  Vector3 force = Vector3::Zero();   ///< [N]
+  Matrix3 by_x = Matrix3::Zero();    ///< [N/m]
+  Matrix3 by_v = Matrix3::Zero();    ///< [N s/m]
+  Vector3 by_N = Vector3::Zero();    ///< [1]
+};
+
+inline Vector3 along_bed(const Vector3& vector) { return {vector.x(), vector.y(), 0}; }
+
+/// (1 - d d^T) along the bed, for a unit vector d along it.
+inline Matrix3 across(const Vector3& d) { return Vector3(1, 1, 0).asDiagonal().toDenseMatrix() - d * d.transpose(); }
+
+struct NoFriction {
+  static constexpr bool acts = false;
+};
+
+/// -mu N v_t/sqrt(v_t^2 + v_s^2), with the velocity v_t along the bed.  It holds nothing that is at rest.
+struct ViscousFriction {
+  static constexpr bool acts = true;
+  double mu;
+  double v_s;   ///< [m/s], > 0
+
+  template <bool with_tangent>
+  FrictionForce at(double N, const Vector3&, const Vector3& v) const {
+    FrictionForce result;
+    if (N <= 0) return result;
+    const Vector3 slip = along_bed(v);
+    const double speed = std::sqrt(slip.squaredNorm() + v_s * v_s);
+    const Vector3 per_N = -mu / speed * slip;
+    result.force = N * per_N;
+    if constexpr (with_tangent) {
+      result.by_N = per_N;
+      result.by_v = -mu * N / speed * (across(Vector3::Zero()) - slip * slip.transpose() / (speed * speed));
+    }
+    return result;
+  }
+};
+
+/// A spring between the node and the place where it holds the bed, its grip, and a damper beside it: -p = -(k s + c
+/// v_t), with s the way along the bed from the grip to the node, and v_t its velocity along the bed.  The two pull with
+/// no more than Coulomb's mu N, in the direction of -p.  Beyond that the node slips, and the grip follows
+/// (regripped()). Source: the return mapping of plasticity, as in Wriggers, Computational Contact Mechanics, 2nd ed.,
+/// section 5.2.
+struct StickFriction {
+  static constexpr bool acts = true;
+  double mu;
+  double stiffness;   ///< k [N/m], > 0
+  double damping;     ///< c [N s/m], >= 0
+  Vector3 grip;       ///< its z does not matter [m]
+  /// The slopes of what slips are those of mu N/|p| p with mu N/|p| held.  Newton's method then converges slowly, but
+  /// does not go round between sticking and slipping.
+  bool is_cautious = false;
+
+  template <bool with_tangent>
+  FrictionForce at(double N, const Vector3& x, const Vector3& v) const {
+    FrictionForce result;
+    if (N <= 0 || mu == 0) return result;
+    const Vector3 p = along_bed(stiffness * (x - grip) + damping * v);
+    const double pull = p.norm(), most = mu * N;
+    const bool slips = pull > most;
+    result.force = slips ? Vector3(-most / pull * p) : Vector3(-p);
+    if constexpr (with_tangent) {
+      const Vector3 direction = slips ? Vector3(p / pull) : Vector3(Vector3::Zero());
+      if (slips) result.by_N = -mu * direction;
+      const Matrix3 slope = (slips ? most / pull : 1) * across(is_cautious ? Vector3(Vector3::Zero()) : direction);
+      result.by_x = -stiffness * slope;
+      result.by_v = -damping * slope;
+    }
+    return result;
+  }
+
+  /// Where the grip is after the node has come to x: no farther from it than the spring holds.  What is not pressed to
+  /// the bed takes its grip along.
+  Vector3 regripped(double N, const Vector3& x) const {
+    const Vector3 s = along_bed(x - grip);
+    const double way = s.norm(), longest = mu * std::max(N, 0.0) / stiffness;
+    return way <= longest ? grip : Vector3(x - longest / way * s);
+  }
+
+  /// The spring's energy and the work against friction on the way from the grip to x, with the same N all along.  [J]
+  double potential(double N, const Vector3& x) const {
+    const double way = along_bed(x - grip).norm(), most = mu * std::max(N, 0.0), longest = most / stiffness;
+    return way <= longest ? 0.5 * stiffness * way * way : most * (way - 0.5 * longest);
+  }
+};
+
+/// Friction that takes another N than the one at hand.
+template <class Law>
+struct HeldFriction {
+  static constexpr bool acts = true;
+  Law law;
+  double N;   ///< [N]
+
+  template <bool with_tangent>
+  FrictionForce at(double, const Vector3& x, const Vector3& v) const {
+    FrictionForce result = law.template at<with_tangent>(N, x, v);
+    result.by_N.setZero();
+    return result;
+  }
+};
+
+}   // namespace cablenet::environment
