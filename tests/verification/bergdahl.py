@@ -59,7 +59,8 @@ def chain(elements, stiffness=BED, motion="fixed", shape="catenary"):
     damping = 2 * math.sqrt(stiffness * MASS / BAR)
     return {
         "environment": {"gravity": GRAVITY, "fluid": {"density": 1000, "surface": SURFACE},
-                        "seabed": {"level": 0, "stiffness": stiffness, "damping": damping, "friction": 0.3}},
+                        "seabed": {"level": 0, "stiffness": stiffness, "damping": damping, "friction": 0.3,
+                                   "friction_velocity": 0.01}},
         "cable_types": {"chain": {"area": AREA, "diameter": BAR, "mass_per_length": MASS, "axial_stiffness": STIFFNESS,
                                   "normal_drag": 2.5, "tangential_drag": 0.5, "added_mass": 3.8,
                                   "tension_only": True}},

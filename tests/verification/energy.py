@@ -68,7 +68,7 @@ def check_tow(v):
 
 def check_bed(v):
     """Friction takes all motion of a cable that slides along itself.  Damping takes what a cable had that fell flat."""
-    bed = {"level": 0, "stiffness": 2e4, "friction": 0.3}
+    bed = {"level": 0, "stiffness": 2e4, "damping": 2e3, "friction": 0.3}
     depth = MASS * GRAVITY / (bed["stiffness"] * DIAMETER)
     made = scene(CABLE, laid(-depth, velocity=[1.5, 0, 0]), {"from": "a", "to": "b", "elements": 4}, 1.0, 0.002, 0.1, [],
                  energy=True, **ENERGY_MOMENTUM)

@@ -13,7 +13,8 @@ HOLDERS = ("fixed", "buoy", "body")
 class Mooring:
     """One draw.  All numbers that matter are attributes, so that a test can compute the same by other means."""
 
-    def __init__(self, seed):
+    def __init__(self, seed, friction=0.0):
+        self.friction = friction
         random = np.random.default_rng(seed)
         pick = lambda *of: of[random.integers(len(of))]
         self.seed = seed
@@ -115,7 +116,7 @@ class Mooring:
         return {
             "environment": {"gravity": GRAVITY, "fluid": fluid,
                             "seabed": {"level": -self.depth, "stiffness": self.bed, "damping": 0.1 * self.bed,
-                                       "friction": 0.5}},
+                                       "friction": self.friction}},
             "cable_types": {"chain": {"diameter": DIAMETER, "mass_per_length": MASS, "axial_stiffness": STIFFNESS,
                                       "normal_drag": 2.0, "tangential_drag": 0.4, "added_mass": 1.0,
                                       "tension_only": self.tension_only}},

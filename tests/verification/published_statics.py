@@ -105,8 +105,8 @@ MOORINGS = ((400, 200, 500, 7.51e12, 800, True, 96643.42815934008, 0, -96643.428
              -77634.40064978378, 0),
             (89.9, 59.2, 130, 7.51e8, 881.05, False, 31373.229006023103, -26650.341270116318, -31373.229006023103,
              -87886.15872988368, 0))
-# fBH, fBV of the first with friction 0.1 and 5.  Its fAH is 80418.6 and 0: what friction holds is not found by statics,
-# where nothing slides.
+# fBH, fBV of the first with friction 0.1 and 5.  Its fAH is 80418.6 and 0 by rigid friction.  So stiff a line hardly
+# moves along the bed, and springs hold less.
 RUBBED = {0.1: (-96643.42877136687, -237751.75577183915), 5: (-96643.43501616362, -237751.75997440016)}
 
 

@@ -30,13 +30,23 @@ def solve(v, name, text=None, notes=(), ranks=(None,)):
 
 def chains(v):
     """On the bed and under a buoy, in a current too."""
-    run = solve(v, "slack_chain_on_bed", ranks=(1, 2, 3))
+    text = (SCENES / "slack_chain_on_bed.yaml").read_text()
+    run = solve(v, "slack_chain_on_bed", text.replace("friction: 0.5", "friction: 0"), ranks=(1, 2, 3))
     lack = Chain(148.5, 57.5, 200, 60, 3e6, (48 - 1025 * np.pi * 0.05**2 / 4) * 9.81).solve()
     for end, column in ((0, "line1.tension_from"), (-1, "line1.tension_to")):
         pull = np.linalg.norm(lack[end])
         v.close(f"slack_chain_on_bed: {column} [N]", abs(run[column][0]), pull, 1e-5 * pull)
+    rough = solve(v, "slack_chain_on_bed", ranks=(1, 2, 3))
+    # Friction can hold ten times the pull at touchdown.  The anchor then bears half an element that hangs on it.
+    weight = (48 - 1025 * np.pi * 0.05**2 / 4) * 9.81 * 200 / 60 / 2
+    v.check("slack_chain_on_bed, friction: horizontal pull at the anchor [N]",
+            max(rough["line1.tension_from"][0]**2 - weight**2, 0)**0.5, 100)
+    pull = run["line1.tension_to"][0]
+    v.close("slack_chain_on_bed, friction: pull at the fairlead [N]", rough["line1.tension_to"][0], pull, 1e-3 * pull)
     solve(v, "buoy_three_slack_chains")
-    run = solve(v, "one_line_too_long")
+    solve(v, "one_line_too_long")
+    text = (SCENES / "one_line_too_long.yaml").read_text()
+    run = solve(v, "one_line_too_long", text.replace("friction: 0.5", "friction: 0"))
     # The two lines of 165 m are 140 m and more from their anchors, and leave the buoy no other place.
     v.close("one_line_too_long: place of the buoy [m]", at_rest(run, "buoy")[0], -59.2, 0.5)
 

@@ -28,6 +28,8 @@ cablenet_script_test(verification_steady_tow verification/steady_tow.py 120 veri
 cablenet_script_test(verification_static_networks verification/static_networks.py 120 verification)
 cablenet_script_test(verification_networks verification/networks.py 300 verification)
 cablenet_script_test(verification_slack_moorings verification/slack_moorings.py 300 verification)
+cablenet_script_test(verification_bed_friction verification/bed_friction.py 120 verification)
+cablenet_script_test(verification_bed_contact verification/bed_contact.py 120 verification)
 cablenet_script_test(verification_static_scenes verification/static_scenes.py 300 verification)
 cablenet_script_test(verification_bergdahl verification/bergdahl.py 120 verification)
 cablenet_script_test(verification_yardstick verification/yardstick.py 60 verification
