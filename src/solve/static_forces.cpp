@@ -43,17 +43,20 @@ void fill_velocity(const partition::LocalNetwork& network, const Vector3& veloci
   check(VecRestoreArray(v, &values));
 }
 
-/// The largest stiffness x diameter x L^2.  It is the stiffness of a node's contact over the element's EA/L, times EA.
-/// [N]
-double measure_bed(const partition::LocalNetwork& network, MPI_Comm communicator) {
-  double largest = 0;
-  if (!network.surroundings.bed) return 0;
+/// The largest stiffness x area x L of cables and of spots.  It is the stiffness of a node's contact over the element's
+/// EA/L, times EA.  [N]
+std::array<double, 2> measure_bed(const partition::LocalNetwork& network, MPI_Comm communicator) {
+  if (!network.surroundings.bed) return {0, 0};
+  double largest[3] = {0, 0, 0};   // of diameter x L^2, a spot's area, and L
   for (int i = 0; i < network.own_elements; ++i) {
     const partition::LocalElement& e = network.elements[at(i)];
-    largest = std::max(largest, network.surroundings.on_bed[at(e.material)].diameter * e.length * e.length);
+    largest[0] = std::max(largest[0], network.surroundings.on_bed[at(e.material)].diameter * e.length * e.length);
+    largest[2] = std::max(largest[2], e.length);
   }
-  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, communicator);
-  return network.surroundings.bed->stiffness * largest;
+  for (const auto& spot : network.bed_spots) largest[1] = std::max(largest[1], spot.area);
+  MPI_Allreduce(MPI_IN_PLACE, largest, 3, MPI_DOUBLE, MPI_MAX, communicator);
+  const double stiffness = network.surroundings.bed->stiffness;
+  return {stiffness * largest[0], stiffness * largest[1] * largest[2]};
 }
 
 double softest_cable(const partition::LocalNetwork& network) {
@@ -117,13 +120,13 @@ bool StaticForces::is_in_flow() const {
 }
 
 /// Against soft cables a hard bed is a wall, before which Newton's steps shrink to nothing.
-double StaticForces::bed_softness(const system::StaticRule& rule) const {
+double StaticForces::bed_softness(const system::StaticRule& rule, double stiffest) const {
   if (rule.kind == system::StaticRule::Kind::exact) return 1;
   if (rule.kind == system::StaticRule::Kind::descent)
-    return std::clamp(stiffest_bed_ / (bed_over_soft_cables * rule.most_stiffness), 1.0, softest_bed);
+    return std::clamp(stiffest / (bed_over_soft_cables * rule.most_stiffness), 1.0, softest_bed);
   const double cable =
       rule.kind == system::StaticRule::Kind::strings ? rule.string_tension * rule.exponent : softest_cable_;
-  return std::clamp(stiffest_bed_ / (bed_over_cables * cable), 1.0, softest_bed);
+  return std::clamp(stiffest / (bed_over_cables * cable), 1.0, softest_bed);
 }
 
 system::Situation StaticForces::situation(system::InternalForce internal, const system::StaticRule& rule) const {
@@ -133,7 +136,8 @@ system::Situation StaticForces::situation(system::InternalForce internal, const 
           .frame = is_still() ? Vector3(0, 0, 0) : velocity_,
           .is_calm = true,
           .is_still = is_still(),
-          .bed_softness = bed_softness(rule),
+          .bed_softness = bed_softness(rule, stiffest_bed_[0]),
+          .spot_softness = bed_softness(rule, stiffest_bed_[1]),
           .sticking = sticking_};
 }
 
@@ -213,7 +217,8 @@ void StaticForces::raw_loads(Vec x, Vec r, bool is_still) {
                               .frame = is_still ? Vector3(0, 0, 0) : velocity_,
                               .is_calm = true,
                               .is_still = is_still,
-                              .bed_softness = 0};
+                              .bed_softness = 0,
+                              .spot_softness = 0};
   assembler_.evaluate(now, x, is_still ? resting_ : v_, resting_, r, nullptr);
 }
 

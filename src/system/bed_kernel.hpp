@@ -60,7 +60,7 @@ template <class Contacts, class Visit>
 void visit_bed(const Contacts& contacts, const environment::Bed& bed, const Situation& situation, bool is_cautious,
                const BedGrips& grips, Visit&& visit) {
   visit_friction(bed, situation, is_cautious, grips, [&](const auto& laws) {
-    BedKernel kernel(contacts, bed, situation.bed_softness, situation.stage.dt, laws);
+    BedKernel kernel(contacts, bed, contacts.softness(situation), situation.stage.dt, laws);
     if (situation.internal == InternalForce::of_statics) kernel.bed.damping = 0;
     visit(kernel);
   });

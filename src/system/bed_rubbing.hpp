@@ -54,7 +54,7 @@ void begin_rubbing(const Contacts& contacts, const environment::Bed& bed, Evalua
 template <class Contacts>
 double bed_potential(const Contacts& contacts, std::size_t count, const environment::Bed& bed,
                      const Situation& situation, const BedGrips& grips, const LocalState& state) {
-  const double softness = situation.bed_softness;
+  const double softness = contacts.softness(situation);
   const BedKernel kernel(contacts, bed, softness, 0, SticksAsHeld{{bed.friction, 0, grips}});
   const bool rubs = bed.sticks() && situation.sticking == Sticking::held;
   double sum = 0;

@@ -9,6 +9,7 @@ namespace {
 struct Spots {
   const std::vector<network::BedSpot<LocalNode>>& spots;
 
+  static double softness(const Situation& situation) { return situation.spot_softness; }
   std::size_t size() const { return spots.size(); }
   LocalNode node(std::size_t i) const { return spots[i].node; }
   double reach(std::size_t i) const { return spots[i].radius; }
@@ -30,14 +31,14 @@ void BedSpotTerm::begin_step(Evaluation& evaluation) {
 }
 
 void BedSpotTerm::add(Evaluation& evaluation) {
-  if (network_.bed_spots.empty() || evaluation.situation.bed_softness == 0) return;
+  if (network_.bed_spots.empty() || evaluation.situation.spot_softness == 0) return;
   visit_bed(Spots{network_.bed_spots}, *network_.surroundings.bed, evaluation.situation,
             evaluation.target.turning.is_cautious(), grips_,
             [&](const auto& kernel) { add_to_nodes(evaluation, kernel, network_.bed_spots, slots_); });
 }
 
 void BedSpotTerm::add_potential(const Situation& situation, const LocalState& state, double& sum) const {
-  if (network_.bed_spots.empty() || situation.bed_softness == 0) return;
+  if (network_.bed_spots.empty() || situation.spot_softness == 0) return;
   const Spots spots{network_.bed_spots};
   sum += bed_potential(spots, spots.size(), *network_.surroundings.bed, situation, grips_, state);
 }

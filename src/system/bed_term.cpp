@@ -12,6 +12,7 @@ struct CableEnds {
 
   const partition::LocalElement& element(std::size_t i) const { return network.elements[i / 2]; }
   const network::CableOnBed& cable(std::size_t i) const { return network.surroundings.on_bed[at(element(i).material)]; }
+  static double softness(const Situation& situation) { return situation.bed_softness; }
   std::size_t size() const { return 2 * network.elements.size(); }
   LocalNode node(std::size_t i) const { return element(i).node[i % 2]; }
   double reach(std::size_t) const { return 0; }

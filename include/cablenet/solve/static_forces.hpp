@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -83,12 +84,13 @@ private:
   system::Situation situation(system::InternalForce internal, const system::StaticRule& rule) const;
   bool is_still() const { return holds_drag_ || is_stilled_; }
   void raw_loads(Vec x, Vec r, bool is_still);
-  double bed_softness(const system::StaticRule& rule) const;
+  double bed_softness(const system::StaticRule& rule, double stiffest) const;
 
   system::Assembler& assembler_;
   double t_;
   Vector3 velocity_;
-  double stiffest_bed_;    ///< the largest stiffness of a node's contact over an element's EA/L, times EA [N]
+  /// The largest stiffness of a node's contact over an element's EA/L, times EA: of cables, and of spots.  [N]
+  std::array<double, 2> stiffest_bed_;
   double softest_cable_;   ///< the least EA [N]
   bool holds_drag_ = false, is_stilled_ = false;
   system::Sticking sticking_ = system::Sticking::absent;

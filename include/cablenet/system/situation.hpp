@@ -40,9 +40,11 @@ struct Situation {
   /// Prescribed nodes stand where they are at stage.t, and move at this velocity [m/s].  Without it they move as the
   /// scene says.
   std::optional<Vector3> frame{};
-  bool is_calm = false;      ///< The water has no waves.
-  bool is_still = false;     ///< The water has neither waves nor current.
-  double bed_softness = 1;   ///< The bed is so many times softer, its smoothing so many times wider.  0: no bed.
+  bool is_calm = false;    ///< The water has no waves.
+  bool is_still = false;   ///< The water has neither waves nor current.
+  /// The bed is so many times softer, its smoothing so many times wider: for cables, and for points and bodies.  0: no
+  /// bed.
+  double bed_softness = 1, spot_softness = 1;
   Sticking sticking = Sticking::as_it_is;
   double measured_share = 1;   ///< of what Sticking::measured notes; the rest is what was noted before
 };
