@@ -11,7 +11,8 @@ namespace cablenet::solve {
 namespace {
 
 constexpr double period = 2;   // [s] of wall time
-constexpr double unlimited = std::numeric_limits<double>::infinity();
+/// PETSc 3.22 refuses an infinite number as the default of an option.
+constexpr double unlimited = std::numeric_limits<double>::max();
 
 double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
