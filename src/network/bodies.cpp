@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "cablenet/base/index.hpp"
 #include "cablenet/bodies/body_box.hpp"
@@ -106,8 +105,8 @@ void put_on_bed(const scene::Body& from, const scene::Scene& scene, Body& body, 
   const double displaced = scene.fluid ? scene.fluid->density * from.volume : 0;
   const double weight = std::max(scene.gravity * (from.mass - displaced), 0.0);
   if (body.properties.rotation == bodies::Rotation::none) {
-    const double radius = wetted_radius(from.volume, 0), area = std::numbers::pi * radius * radius;
-    if (radius > 0) network.bed_spots.push_back(bed_spot(body.node, radius, area, weight, 2 * radius, *scene.bed));
+    const double radius = wetted_radius(from.volume, 0);
+    if (radius > 0) network.bed_spots.push_back(bed_spot(sphere(radius), body.node, weight, scene));
     return;
   }
   const bodies::BodyBox box = bodies::body_box(from.mass, from.inertia);
@@ -118,7 +117,7 @@ void put_on_bed(const scene::Body& from, const scene::Scene& scene, Body& body, 
     corners.push_back(box.attitude * edges.cwiseProduct(Vector3(i & 1, i >> 1 & 1, i >> 2) - Vector3::Constant(0.5)));
   for (const Vector3& spot : from.contact.value_or(corners)) {
     const SceneNode node = spot.isZero(0) ? body.node : add_carried(from, spot, body, network);
-    network.bed_spots.push_back(bed_spot(node, 0, faces / 4, weight / 4, edges.maxCoeff(), *scene.bed));
+    network.bed_spots.push_back(bed_spot({0, faces / 4, edges.maxCoeff()}, node, weight / 4, scene));
   }
 }
 

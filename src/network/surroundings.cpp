@@ -36,10 +36,17 @@ double grip_of(const environment::Bed& bed, double pressure, double size) {
   const double depth = pressure / bed.stiffness, travel = least_travel * size + std::max(depth - shallow * size, 0.0);
   return pressure > 0 ? pressure / travel : bed.stiffness;
 }
+/// As of the bed's pressure, but no more than what damps a weight at rest critically: beyond that damping is but
+/// another stiffness.
+double delay_of(const environment::Bed& bed, double pressure, double grip, double gravity) {
+  const double of_bed = bed.damping / bed.stiffness;
+  return gravity > 0 ? std::min(of_bed, 2 * std::sqrt(std::max(pressure, 0.0) / (grip * gravity))) : of_bed;
+}
 
 CableOnBed on_bed(const scene::CableType& type, const environment::Bed& bed, double density, double gravity) {
   const double pressure = gravity * (type.mass_per_length - density * type.area) / type.diameter;
-  return {type.diameter, smoothing_of(bed, pressure, type.diameter), grip_of(bed, pressure, type.diameter)};
+  const double grip = grip_of(bed, pressure, type.diameter);
+  return {type.diameter, smoothing_of(bed, pressure, type.diameter), grip, delay_of(bed, pressure, grip, gravity)};
 }
 
 }   // namespace
@@ -54,18 +61,21 @@ Surroundings make_surroundings(const scene::Scene& scene) {
   return result;
 }
 
-BedSpot<SceneNode> bed_spot(SceneNode node, double radius, double area, double weight, double size,
-                            const environment::Bed& bed) {
-  const double pressure = weight / area;
-  return {node, radius, area, smoothing_of(bed, pressure, size), grip_of(bed, pressure, size)};
+BedSpot<SceneNode> bed_spot(const SpotShape& shape, SceneNode node, double weight, const scene::Scene& scene) {
+  const double pressure = weight / shape.area, grip = grip_of(*scene.bed, pressure, shape.size);
+  return {node,       shape.radius,
+          shape.area, smoothing_of(*scene.bed, pressure, shape.size),
+          grip,       delay_of(*scene.bed, pressure, grip, scene.gravity)};
 }
+
+SpotShape sphere(double radius) { return {radius, std::numbers::pi * radius * radius, 2 * radius}; }
 
 std::optional<BedSpot<SceneNode>> bed_spot_of(const scene::Point& point, SceneNode node, const scene::Scene& scene) {
   const double radius = point.contact_radius.value_or(wetted_radius(point.volume, 0));
   if (!scene.bed || point.motion || radius == 0) return std::nullopt;
   const double displaced = scene.fluid ? scene.fluid->density * point.volume : 0;
   const double weight = std::max(scene.gravity * (point.mass - displaced), 0.0);
-  return bed_spot(node, radius, std::numbers::pi * radius * radius, weight, 2 * radius, *scene.bed);
+  return bed_spot(sphere(radius), node, weight, scene);
 }
 
 double wetted_radius(double volume, double area) {

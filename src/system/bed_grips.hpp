@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -6,7 +7,7 @@
 
 #include "cablenet/base/archive.hpp"
 #include "cablenet/environment/bed.hpp"
-#include "cablenet/environment/bed_friction.hpp"
+#include "cablenet/environment/held_friction.hpp"
 #include "cablenet/partition/local_network.hpp"
 #include "cablenet/system/situation.hpp"
 
@@ -24,7 +25,11 @@ public:
   /// How many times stiffer than they are in time the springs are.
   double stiffening() const { return stiffening_; }
   void stiffen(double times) { stiffening_ = times; }
+  /// For StickFriction::last.
+  double* last(std::size_t contact) const { return &last_[2 * contact]; }
+  void forget_last() { std::fill(last_.begin(), last_.end(), 0.0); }
   void resize(std::size_t contacts) {
+    last_.assign(2 * contacts, 0);
     grip_.resize(2 * contacts);
     held_.resize(contacts);
   }
@@ -42,30 +47,36 @@ public:
 
 private:
   std::vector<double> grip_, held_;
+  mutable std::vector<double> last_;   ///< tangents write it, results do not depend on it
   double stiffening_ = 1;
 };
 
-/// Each makes the law of a contact whose spring has the stiffness k [N/m].
+/// Each makes the law of a contact whose spring has the stiffness k [N/m], and the damping k delay [N s/m].
 struct NeverRubs {
-  environment::NoFriction operator()(std::size_t, double) const { return {}; }
+  environment::NoFriction operator()(std::size_t, double, double) const { return {}; }
 };
 struct RubsByVelocity {
   environment::ViscousFriction law;
-  environment::ViscousFriction operator()(std::size_t, double) const { return law; }
+  environment::ViscousFriction operator()(std::size_t, double, double) const { return law; }
 };
 struct Sticks {
   double mu;
-  double delay;   ///< damping over stiffness [s]
+  bool is_damped;
   const BedGrips& grips;
   bool is_cautious = false;
-  environment::StickFriction operator()(std::size_t contact, double k) const {
-    return {grips.is_free(contact) ? 0 : mu, grips.stiffening() * k, delay * k, grips.at(contact), is_cautious};
+  environment::StickFriction operator()(std::size_t contact, double k, double delay) const {
+    return {grips.is_free(contact) ? 0 : mu,
+            grips.stiffening() * k,
+            is_damped ? delay * k : 0,
+            grips.at(contact),
+            is_cautious,
+            grips.last(contact)};
   }
 };
 struct SticksAsHeld {
   Sticks springs;
-  environment::HeldFriction<environment::StickFriction> operator()(std::size_t contact, double k) const {
-    return {springs(contact, k), springs.grips.held(contact)};
+  environment::HeldFriction<environment::StickFriction> operator()(std::size_t contact, double k, double delay) const {
+    return {springs(contact, k, delay), springs.grips.held(contact)};
   }
 };
 
@@ -77,7 +88,7 @@ void visit_friction(const environment::Bed& bed, const Situation& situation, boo
   if (!bed.sticks()) return visit(RubsByVelocity{{bed.friction, bed.friction_velocity}});
   if (situation.sticking == Sticking::absent) return visit(NeverRubs{});
   const bool is_static = situation.internal == InternalForce::of_statics;
-  const Sticks springs{bed.friction, is_static ? 0 : bed.damping / bed.stiffness, grips, is_cautious};
+  const Sticks springs{bed.friction, !is_static, grips, is_cautious};
   if (situation.sticking == Sticking::held) return visit(SticksAsHeld{springs});
   visit(springs);
 }

@@ -37,7 +37,7 @@ void begin_rubbing(const Contacts& contacts, const environment::Bed& bed, Evalua
   if (is_static && situation.sticking != Sticking::measured) return;
   evaluation.complete();
   const AnyNodes nodes{evaluation.data};
-  BedKernel kernel(contacts, bed, 1, 0, Sticks{bed.friction, 0, grips});
+  BedKernel kernel(contacts, bed, 1, 0, Sticks{bed.friction, false, grips});
   if (is_static) kernel.bed.damping = 0;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Vector3 x = nodes.x(contacts.node(i)), v = nodes.v(contacts.node(i));
@@ -47,7 +47,9 @@ void begin_rubbing(const Contacts& contacts, const environment::Bed& bed, Evalua
     else
       grips.put(i, next_grip(kernel, grips, i, N, x));
   }
-  if (!is_static) grips.stiffen(1);
+  if (is_static) return;
+  grips.stiffen(1);
+  grips.forget_last();
 }
 
 /// Of the bed's pressure, and of friction where it is held.  [J]
@@ -55,7 +57,7 @@ template <class Contacts>
 double bed_potential(const Contacts& contacts, std::size_t count, const environment::Bed& bed,
                      const Situation& situation, const BedGrips& grips, const LocalState& state) {
   const double softness = contacts.softness(situation);
-  const BedKernel kernel(contacts, bed, softness, 0, SticksAsHeld{{bed.friction, 0, grips}});
+  const BedKernel kernel(contacts, bed, softness, 0, SticksAsHeld{{bed.friction, false, grips}});
   const bool rubs = bed.sticks() && situation.sticking == Sticking::held;
   double sum = 0;
   for (std::size_t i = 0; i < count; ++i) {

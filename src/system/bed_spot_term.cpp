@@ -16,6 +16,7 @@ struct Spots {
   double area(std::size_t i) const { return spots[i].area; }
   double smoothing(std::size_t i) const { return spots[i].smoothing; }
   double grip(std::size_t i) const { return spots[i].grip; }
+  double delay(std::size_t i) const { return spots[i].delay; }
 };
 
 }   // namespace

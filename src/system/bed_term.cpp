@@ -19,6 +19,7 @@ struct CableEnds {
   double area(std::size_t i) const { return 0.5 * cable(i).diameter * element(i).length; }
   double smoothing(std::size_t i) const { return cable(i).smoothing; }
   double grip(std::size_t i) const { return cable(i).grip; }
+  double delay(std::size_t i) const { return cable(i).delay; }
 };
 
 }   // namespace

@@ -1,6 +1,8 @@
-#include "cablenet/environment/bed_friction.hpp"
+#include "cablenet/environment/held_friction.hpp"
 
 #include <gtest/gtest.h>
+
+#include <array>
 
 #include <functional>
 
@@ -130,6 +132,20 @@ TEST(ViscousFriction, OpposesSlidingUpToCoulombs) {
   EXPECT_LE((at(viscous, N, x, {3e5, -4e5, 1}).force - mu * N * Vector3(-0.6, 0.8, 0)).norm(), 1e-9 * N);
   EXPECT_EQ(at(viscous, -1, x, {1, 0, 0}).force.norm(), 0);
   for (const double speed : {0.0, 0.01, 0.05}) expect_slopes(viscous, x, {speed, -2 * speed, 0.3});
+}
+
+/// Newton's method has gone from one side of where the node sticks to the other: the chord between the two sides.
+TEST(StickFriction, WhereItHasTurnedRoundTheSlopeIsTheChords) {
+  constexpr double N = 3, way = 5 * mu * N / stiffness;
+  std::array<double, 2> last{};
+  StickFriction turning = spring;
+  turning.last = last.data();
+  const Vector3 there(2 + way, -1, 0), back(2 - 2 * way, -1, 0);
+  EXPECT_EQ(turning.at<true>(N, there, Vector3::Zero()).by_x(0, 0), 0);
+  const FrictionForce found = turning.at<true>(N, back, Vector3::Zero());
+  const double change = found.force.x() - turning.at<false>(N, there, Vector3::Zero()).force.x();
+  EXPECT_NEAR(found.by_x(0, 0), change / (back - there).x(), 1e-12 * stiffness);
+  EXPECT_EQ(turning.at<true>(N, back, Vector3::Zero()).by_x(0, 0), 0);
 }
 
 TEST(HeldFriction, TakesItsOwnPressureAlone) {

@@ -31,6 +31,7 @@ cablenet_script_test(verification_slack_moorings verification/slack_moorings.py 
 cablenet_script_test(verification_bed_friction verification/bed_friction.py 120 verification)
 cablenet_script_test(verification_bed_contact verification/bed_contact.py 120 verification)
 cablenet_script_test(verification_static_scenes verification/static_scenes.py 300 verification)
+cablenet_script_test(verification_static_invariance verification/static_invariance.py 600 verification)
 cablenet_script_test(verification_bergdahl verification/bergdahl.py 120 verification)
 cablenet_script_test(verification_yardstick verification/yardstick.py 60 verification
   --yardstick $<TARGET_FILE:yardstick_chain>)

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cablenet/base/linear_algebra.hpp"
 
@@ -62,6 +63,9 @@ struct StickFriction {
   /// The slopes of what slips are those of mu N/|p| p with mu N/|p| held.  Newton's method then converges slowly, but
   /// does not go round between sticking and slipping.
   bool is_cautious = false;
+  /// x and y of p at the last tangent of a step.  Where p has turned round since, Newton's method has gone past where
+  /// the node sticks, and the slope along p is the chord's instead of zero.  Null: never.
+  double* last = nullptr;
 
   template <bool with_tangent>
   FrictionForce at(double N, const Vector3& x, const Vector3& v) const {
@@ -74,7 +78,9 @@ struct StickFriction {
     if constexpr (with_tangent) {
       const Vector3 direction = slips ? Vector3(p / pull) : Vector3(Vector3::Zero());
       if (slips) result.by_N = -mu * direction;
-      const Matrix3 slope = (slips ? most / pull : 1) * across(is_cautious ? Vector3(Vector3::Zero()) : direction);
+      const double share = slips ? most / pull : 1, chord = chord_since_last(most, p);
+      const double along = is_cautious ? share : chord;
+      const Matrix3 slope = share * across(direction) + along * direction * direction.transpose();
       result.by_x = -stiffness * slope;
       result.by_v = -damping * slope;
     }
@@ -94,20 +100,13 @@ struct StickFriction {
     const double way = along_bed(x - grip).norm(), most = mu * std::max(N, 0.0), longest = most / stiffness;
     return way <= longest ? 0.5 * stiffness * way * way : most * (way - 0.5 * longest);
   }
-};
 
-/// Friction that takes another N than the one at hand.
-template <class Law>
-struct HeldFriction {
-  static constexpr bool acts = true;
-  Law law;
-  double N;   ///< [N]
-
-  template <bool with_tangent>
-  FrictionForce at(double, const Vector3& x, const Vector3& v) const {
-    FrictionForce result = law.template at<with_tangent>(N, x, v);
-    result.by_N.setZero();
-    return result;
+private:
+  /// Keeps p as the last.
+  double chord_since_last(double most, const Vector3& p) const {
+    if (last == nullptr) return 0;
+    const Vector3 before(std::exchange(last[0], p.x()), std::exchange(last[1], p.y()), 0);
+    return before.dot(p) < 0 ? 2 * most / (before.norm() + p.norm()) : 0;
   }
 };
 

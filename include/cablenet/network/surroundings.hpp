@@ -22,6 +22,7 @@ struct CableOnBed {
   double diameter;    ///< [m]
   double smoothing;   ///< half the range of depths over which contact sets in [m], > 0
   double grip;        ///< pressure of friction per travel of what sticks [Pa/m], > 0
+  double delay;       ///< of that pressure by damping: damping over stiffness [s], >= 0
 };
 
 /// A node on which water acts directly: a point, or a body's centre of buoyancy.
@@ -39,6 +40,7 @@ struct BedSpot {
   double area;        ///< on which the bed presses [m^2], > 0
   double smoothing;   ///< as of CableOnBed [m]
   double grip;        ///< likewise [Pa/m]
+  double delay;       ///< likewise [s]
 };
 
 struct Surroundings {
@@ -52,10 +54,16 @@ struct Surroundings {
 
 Surroundings make_surroundings(const scene::Scene& scene);
 
+/// How a spot meets the bed: `radius` and `area` are those of BedSpot, `size` is that of what rests there.  [m], [m^2],
+/// [m]
+struct SpotShape {
+  double radius, area, size;
+};
+SpotShape sphere(double radius);
+
 /// A spot on which a weight rests.
-/// @param weight  on it, less its buoyancy [N]   @param size  of what rests [m]
-BedSpot<SceneNode> bed_spot(SceneNode node, double radius, double area, double weight, double size,
-                            const environment::Bed& bed);
+/// @param weight  on it, less its buoyancy [N]
+BedSpot<SceneNode> bed_spot(const SpotShape& shape, SceneNode node, double weight, const scene::Scene& scene);
 
 /// A free point touches the bed as a sphere.
 std::optional<BedSpot<SceneNode>> bed_spot_of(const scene::Point& point, SceneNode node, const scene::Scene& scene);
