@@ -13,9 +13,9 @@ namespace {
 /// cable at rest lies where stiffness is constant.
 constexpr double smoothing_part = 0.2;
 
-/// What lies on the bed travels by mu times this part of its diameter before it slips.  It is short, so that a pull
-/// along the bed goes no farther than friction lets it.  What lies deeper than `shallow`, a part of the diameter too,
-/// travels by mu times the rest of its depth beside that: a soft bed holds softly.
+/// What lies on the bed travels before it slips.  On a hard bed it travels mu times this part of its diameter, so
+/// little that friction soon holds all that it can.  A soft bed lets it sink in, and gives way more.  So the depth
+/// beyond `shallow` times the diameter, also times mu, is added to the travel.
 constexpr double least_travel = 0.007, shallow = 0.25;
 
 /// The least smoothing over the diameter, for what has no weight.
@@ -31,13 +31,13 @@ elements::CableInWater in_water(const scene::CableType& type, double density) {
 double smoothing_of(const environment::Bed& bed, double pressure, double size) {
   return std::max(smoothing_part * pressure / bed.stiffness, least_smoothing * size);
 }
-double grip_of(const environment::Bed& bed, double pressure, double size) {
+double friction_stiffness_of(const environment::Bed& bed, double pressure, double size) {
   if (bed.friction_stiffness > 0) return bed.friction_stiffness;
   const double depth = pressure / bed.stiffness, travel = least_travel * size + std::max(depth - shallow * size, 0.0);
   return pressure > 0 ? pressure / travel : bed.stiffness;
 }
-/// As of the bed's pressure, but no more than what damps a weight at rest critically: beyond that damping is but
-/// another stiffness.
+/// The damping of friction over its stiffness [s].  It is the bed's own ratio, but at most that which damps a weight at
+/// rest critically.  More damping would only act as more stiffness.
 double delay_of(const environment::Bed& bed, double pressure, double grip, double gravity) {
   const double of_bed = bed.damping / bed.stiffness;
   return gravity > 0 ? std::min(of_bed, 2 * std::sqrt(std::max(pressure, 0.0) / (grip * gravity))) : of_bed;
@@ -45,7 +45,7 @@ double delay_of(const environment::Bed& bed, double pressure, double grip, doubl
 
 CableOnBed on_bed(const scene::CableType& type, const environment::Bed& bed, double density, double gravity) {
   const double pressure = gravity * (type.mass_per_length - density * type.area) / type.diameter;
-  const double grip = grip_of(bed, pressure, type.diameter);
+  const double grip = friction_stiffness_of(bed, pressure, type.diameter);
   return {type.diameter, smoothing_of(bed, pressure, type.diameter), grip, delay_of(bed, pressure, grip, gravity)};
 }
 
@@ -62,7 +62,7 @@ Surroundings make_surroundings(const scene::Scene& scene) {
 }
 
 BedSpot<SceneNode> bed_spot(const SpotShape& shape, SceneNode node, double weight, const scene::Scene& scene) {
-  const double pressure = weight / shape.area, grip = grip_of(*scene.bed, pressure, shape.size);
+  const double pressure = weight / shape.area, grip = friction_stiffness_of(*scene.bed, pressure, shape.size);
   return {node,       shape.radius,
           shape.area, smoothing_of(*scene.bed, pressure, shape.size),
           grip,       delay_of(*scene.bed, pressure, grip, scene.gravity)};

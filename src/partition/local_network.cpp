@@ -44,7 +44,8 @@ public:
         here_.wet_points.push_back({node, point.water});
     for (const auto& spot : network_.bed_spots)
       if (const LocalNode node = local_of_[spot.node]; speaks_for(node))
-        here_.bed_spots.push_back({node, spot.radius, spot.area, spot.smoothing, spot.grip, spot.delay});
+        here_.bed_spots.push_back(
+            {node, spot.radius, spot.area, spot.smoothing, spot.friction_stiffness, spot.friction_delay});
     here_.materials = network_.materials;
     here_.surroundings = network_.surroundings;
     here_.gravity = network_.gravity;

@@ -32,7 +32,7 @@ constexpr double slack_tension = 1e-4;
 /// The residual over the loads from which on bodies' turning is steadied less and less.
 constexpr double rough = 0.05;
 
-/// The residual over the loads down to which the slope of what slips leads out of cycles.
+/// While the residual over the loads is larger than this, slopes are as in environment::StickFriction::is_cautious.
 constexpr double cautious = 1e-4;
 
 /// Where less than this share of a correction is taken, the next one is made in a shorter pseudo-time.

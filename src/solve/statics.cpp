@@ -136,7 +136,7 @@ bool Statics::rub(bool was_taut) {
   return rub_from_here(false) && is_taut_enough();
 }
 
-/// The equilibrium without friction is near, so Newton's method comes first.
+/// Newton's method comes first, because the equilibrium without friction is near.  A current may have moved it away.
 bool Statics::rub_from_here(bool never_pushes) {
   const system::Vector start = assembler_.make_vector();
   check(VecCopy(x_, start));

@@ -28,7 +28,9 @@ struct BedKernel {
     bed.damping /= by;
   }
 
-  auto law(std::size_t i) const { return laws(i, contacts.grip(i) * contacts.area(i), contacts.delay(i)); }
+  auto law(std::size_t i) const {
+    return laws(i, contacts.friction_stiffness(i) * contacts.area(i), contacts.friction_delay(i));
+  }
   double height(std::size_t i, const Vector3& x) const { return x.z() - contacts.reach(i); }
 
   template <bool with_tangent>

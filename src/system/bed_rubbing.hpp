@@ -1,7 +1,7 @@
 #pragma once
 #include "bed_kernel.hpp"
 
-/// What the springs of friction of a term's contacts do from step to step, and in statics.
+/// Moves the grips of a term's contacts from step to step, and gives statics the bed's potential.
 namespace cablenet::system {
 
 /// In statics friction is to hold before anything has travelled, as in the closed forms of moorings.  So its springs
@@ -19,8 +19,9 @@ void put_grips(const Contacts& contacts, const environment::Bed& bed, const Grip
   }
 }
 
-/// Where the grip of a contact is at the start of a step.  It follows what has slipped in the last one; a step that is
-/// tried again finds nothing to do.  After statics springs as stiff as they are pull as the stiff ones did.
+/// Where the grip of a contact is at the start of a step.  It follows what slipped in the last step.  A step that is
+/// tried again leaves it where it is.  The first step after statics has softer springs.  There the grip moves so that
+/// the soft spring pulls as the stiff one did.
 template <class Kernel>
 Vector3 next_grip(const Kernel& kernel, const BedGrips& grips, std::size_t i, double N, const Vector3& x) {
   if (grips.is_free(i)) return x;
@@ -29,7 +30,7 @@ Vector3 next_grip(const Kernel& kernel, const BedGrips& grips, std::size_t i, do
   return x + grips.stiffening() / stiff.stiffness * stiff.at<false>(N, x, Vector3::Zero()).force;
 }
 
-/// At the start of a step grips move.  In statics the pressures are noted where the situation asks for it.
+/// In time, moves the grips at the start of a step.  In statics, notes the pressures if the situation asks for it.
 template <class Contacts>
 void begin_rubbing(const Contacts& contacts, const environment::Bed& bed, Evaluation& evaluation, BedGrips& grips) {
   const Situation& situation = evaluation.situation;

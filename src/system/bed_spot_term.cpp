@@ -15,8 +15,8 @@ struct Spots {
   double reach(std::size_t i) const { return spots[i].radius; }
   double area(std::size_t i) const { return spots[i].area; }
   double smoothing(std::size_t i) const { return spots[i].smoothing; }
-  double grip(std::size_t i) const { return spots[i].grip; }
-  double delay(std::size_t i) const { return spots[i].delay; }
+  double friction_stiffness(std::size_t i) const { return spots[i].friction_stiffness; }
+  double friction_delay(std::size_t i) const { return spots[i].friction_delay; }
 };
 
 }   // namespace

@@ -18,8 +18,8 @@ struct CableEnds {
   double reach(std::size_t) const { return 0; }
   double area(std::size_t i) const { return 0.5 * cable(i).diameter * element(i).length; }
   double smoothing(std::size_t i) const { return cable(i).smoothing; }
-  double grip(std::size_t i) const { return cable(i).grip; }
-  double delay(std::size_t i) const { return cable(i).delay; }
+  double friction_stiffness(std::size_t i) const { return cable(i).friction_stiffness; }
+  double friction_delay(std::size_t i) const { return cable(i).friction_delay; }
 };
 
 }   // namespace

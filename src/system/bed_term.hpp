@@ -24,7 +24,7 @@ public:
 private:
   bool sticks() const { return network_.surroundings.bed && network_.surroundings.bed->sticks(); }
 
-  BedGrips grips_;   ///< of the ends of all elements; none where nothing sticks
+  BedGrips grips_;   ///< one per end of an element; empty if the bed has no friction by springs
 };
 
 }   // namespace cablenet::system

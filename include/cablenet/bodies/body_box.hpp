@@ -3,7 +3,7 @@
 
 #include "cablenet/base/linear_algebra.hpp"
 
-/// Pictures show a rigid body as a box, and it touches the bed with the box's corners.
+/// Pictures show a rigid body as a box.  The box's corners are also where the body touches the bed.
 /// Tests: tests/unit/body_box_test.cpp
 namespace cablenet::bodies {
 

@@ -49,22 +49,21 @@ struct ViscousFriction {
   }
 };
 
-/// A spring between the node and the place where it holds the bed, its grip, and a damper beside it: -p = -(k s + c
-/// v_t), with s the way along the bed from the grip to the node, and v_t its velocity along the bed.  The two pull with
-/// no more than Coulomb's mu N, in the direction of -p.  Beyond that the node slips, and the grip follows
-/// (regripped()). Source: the return mapping of plasticity, as in Wriggers, Computational Contact Mechanics, 2nd ed.,
-/// section 5.2.
+/// The node holds the bed at its grip.  A spring and a damper side by side pull the node back with p = k s + c v_t.
+/// Here s is the way along the bed from the grip to the node, and v_t is the node's velocity along the bed.
+/// The force is -p where |p| <= mu N.  Elsewhere the node slips, and the force is -mu N p/|p|.  regripped() says how
+/// the grip then follows. Source: Wriggers, Computational Contact Mechanics (2006), section 5.2, the return mapping.
 struct StickFriction {
   static constexpr bool acts = true;
   double mu;
   double stiffness;   ///< k [N/m], > 0
   double damping;     ///< c [N s/m], >= 0
   Vector3 grip;       ///< its z does not matter [m]
-  /// The slopes of what slips are those of mu N/|p| p with mu N/|p| held.  Newton's method then converges slowly, but
-  /// does not go round between sticking and slipping.
+  /// Slopes take the factor mu N/|p| of what slips as constant.  Newton's method then converges slowly, but it does not
+  /// alternate between sticking and slipping.
   bool is_cautious = false;
-  /// x and y of p at the last tangent of a step.  Where p has turned round since, Newton's method has gone past where
-  /// the node sticks, and the slope along p is the chord's instead of zero.  Null: never.
+  /// x and y of p at the step's last tangent.  If p has turned round since, Newton's method has jumped past the place
+  /// where the node sticks.  The slope along p is then that of the chord between the two forces.  Null: it stays zero.
   double* last = nullptr;
 
   template <bool with_tangent>
@@ -95,7 +94,7 @@ struct StickFriction {
     return way <= longest ? grip : Vector3(x - longest / way * s);
   }
 
-  /// The spring's energy and the work against friction on the way from the grip to x, with the same N all along.  [J]
+  /// The work that takes the node from the grip to x under a constant N.  Part of it is stored in the spring.  [J]
   double potential(double N, const Vector3& x) const {
     const double way = along_bed(x - grip).norm(), most = mu * std::max(N, 0.0), longest = most / stiffness;
     return way <= longest ? 0.5 * stiffness * way * way : most * (way - 0.5 * longest);

@@ -19,10 +19,10 @@ namespace cablenet::network {
 
 /// The properties of a cable on which contact with the bed depends.
 struct CableOnBed {
-  double diameter;    ///< [m]
-  double smoothing;   ///< half the range of depths over which contact sets in [m], > 0
-  double grip;        ///< pressure of friction per travel of what sticks [Pa/m], > 0
-  double delay;       ///< of that pressure by damping: damping over stiffness [s], >= 0
+  double diameter;             ///< [m]
+  double smoothing;            ///< half the range of depths over which contact sets in [m], > 0
+  double friction_stiffness;   ///< pressure of friction, over how far what sticks has travelled [Pa/m], > 0
+  double friction_delay;       ///< the damping of friction over its stiffness [s], >= 0
 };
 
 /// A node on which water acts directly: a point, or a body's centre of buoyancy.
@@ -36,11 +36,11 @@ struct WetPoint {
 template <class Node>
 struct BedSpot {
   Node node;
-  double radius;      ///< how far the spot reaches below its node [m], >= 0
-  double area;        ///< on which the bed presses [m^2], > 0
-  double smoothing;   ///< as of CableOnBed [m]
-  double grip;        ///< likewise [Pa/m]
-  double delay;       ///< likewise [s]
+  double radius;               ///< how far the spot reaches below its node [m], >= 0
+  double area;                 ///< on which the bed presses [m^2], > 0
+  double smoothing;            ///< as of CableOnBed [m]
+  double friction_stiffness;   ///< likewise [Pa/m]
+  double friction_delay;       ///< likewise [s]
 };
 
 struct Surroundings {
