@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cablenet/solve/frame_velocity.hpp"
 #include "static_notes.hpp"
 
 namespace cablenet::app {
@@ -49,7 +50,7 @@ std::string name_of(const network::Network& network, const solve::FailedPart& fa
 Equilibrium::Equilibrium(const scene::Scene& scene, const scene::Time& time, system::Assembler& assembler)
     : scene_(scene), t_(time.start), assembler_(assembler) {
   const double window = time.end > time.start ? steady_part * (time.end - time.start) : steady_window;
-  frame_ = solve::StaticForces::frame_velocity(assembler, t_, window);
+  frame_ = solve::frame_velocity(assembler, t_, window);
   statics_.emplace(assembler, t_, frame_);
 }
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "cablenet/petsc/values.hpp"
 #include "cablenet/solve/relaxation.hpp"
+#include "disturbance.hpp"
 #include "failed_part.hpp"
 
 namespace cablenet::solve {
@@ -36,9 +36,6 @@ constexpr double descent_goals[] = {1e-3, 1e-6, 1e-8, 1e-10};
 /// take over much earlier.
 constexpr double goal_in_flow = 0.02;
 constexpr int most_after_descent = 40, most_near = 20;
-
-/// How far nodes move to leave a saddle, over the length of the shortest element there.  Attitudes change as much.
-constexpr double disturbance = 0.01;
 
 /// The first time that a network gets to settle, over that of a fall through its extent.
 constexpr double settling_time = 10, standard_gravity = 9.80665;
@@ -132,7 +129,7 @@ bool Statics::rub(bool was_taut) {
   if (!rub_from_here(was_taut)) return false;
   if (!was_taut || is_taut()) return true;
   if (is_taut_enough() && rub_from_here(false)) return is_taut_enough();
-  disturb();
+  disturb(assembler_.network(), x_);
   return rub_from_here(false) && is_taut_enough();
 }
 
@@ -174,7 +171,7 @@ bool Statics::go_down() {
   const bool found = descend(true);
   if (!may_push_ || (found && is_taut())) return found && (!is_unstable() || leave_saddle());
   is_there_without_pushing_ = found;
-  disturb();
+  disturb(assembler_.network(), x_);
   return descend(false) && (!is_unstable() || leave_saddle());
 }
 
@@ -211,29 +208,11 @@ bool Statics::descend(Descent& descent, bool never_pushes) {
 bool Statics::leave_saddle() {
   const system::Vector saddle = assembler_.make_vector();
   check(VecCopy(x_, saddle));
-  disturb();
+  disturb(assembler_.network(), x_);
   if (descend(false) && !is_unstable()) return true;
   check(VecCopy(saddle, x_));
   newton_.count_negative_pivots(x_);
   return true;
-}
-
-/// By numbers that depend on the scene alone, so that ranks do not matter.
-void Statics::disturb() {
-  const partition::LocalNetwork& network = assembler_.network();
-  std::vector<double> shortest(at(network.nodes), network.extent);
-  for (const partition::LocalElement& e : network.elements)
-    for (const LocalNode node : e.node) shortest[at(node)] = std::min(shortest[at(node)], e.length);
-  double* values = nullptr;
-  check(VecGetArray(x_, &values));
-  for (LocalNode node(0); network.is_owned(node); ++node) {
-    std::minstd_rand random(static_cast<unsigned>(network.scene_node[node].value()) + 1);
-    random.discard(10);
-    std::uniform_real_distribution<double> uniform(-disturbance, disturbance);
-    for (int i = network.begin[node].value(), k = 0; i < network.begin[node + 1].value(); ++i, ++k)
-      values[i] += (k < 3 ? shortest[at(node)] : 1) * uniform(random);
-  }
-  check(VecRestoreArray(x_, &values));
 }
 
 bool Statics::go_by_strings() {

@@ -11,6 +11,7 @@
 #include "../support/networks.hpp"
 #include "../support/scenes.hpp"
 #include "cablenet/solve/dynamics.hpp"
+#include "cablenet/solve/frame_velocity.hpp"
 #include "cablenet/solve/scheme.hpp"
 #include "cablenet/solve/statics.hpp"
 
@@ -111,7 +112,7 @@ private:
   /// Makes the equilibrium the start, as the program does.
   void find_equilibrium() {
     const double t = scene_.time.start, window = 0.1 * (scene_.time.end - t);
-    solve::Statics statics(system_.assembler, t, solve::StaticForces::frame_velocity(system_.assembler, t, window));
+    solve::Statics statics(system_.assembler, t, solve::frame_velocity(system_.assembler, t, window));
     ASSERT_TRUE(statics.solve()) << statics.failure();
     statics.make_start();
   }

@@ -4,6 +4,7 @@
 
 #include "../support/stages.hpp"
 #include "cablenet/petsc/queries.hpp"
+#include "cablenet/solve/frame_velocity.hpp"
 #include "cablenet/solve/static_forces.hpp"
 
 /// These tests compare the tangent of water and bed in the assembled residual with differences, for everything that
@@ -243,7 +244,7 @@ TEST_P(Instant, TheStaticTangentIsTheForcesDerivative) {
   System system(undamped(network), rule_, PETSC_COMM_WORLD), damped(network, rule_, PETSC_COMM_WORLD);
   Stages s(system, 0.5);
   s.stage = {0.4, 0, 0};
-  const Vector3 frame = solve::StaticForces::frame_velocity(system.assembler, s.stage.t, 1);
+  const Vector3 frame = solve::frame_velocity(system.assembler, s.stage.t, 1);
   EXPECT_EQ(frame.x(), std::get<1>(GetParam()) == 0 ? 0 : 0.3);
   solve::StaticForces forces(system.assembler, s.stage.t, frame);
   s.is_calm = true;

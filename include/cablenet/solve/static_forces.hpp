@@ -28,13 +28,6 @@ public:
   /// @param velocity  of the frame [m/s]: the water and the bed move past it
   StaticForces(system::Assembler& assembler, double t, const Vector3& velocity);
 
-  /// A velocity for the frame, from those of the prescribed nodes.  [m/s]
-  /// If all of them have one velocity in the first fifth of the window, it is that one.  Otherwise each component is
-  /// the middle between the least and the largest that occur in the window.  It is zero where these two differ by more
-  /// than a quarter of the middle, as in heave, at a start from rest, or where one point stays and another moves.
-  /// @param window  from t on [s]
-  static Vector3 frame_velocity(const system::Assembler& assembler, double t, double window);
-
   /// Water moves past the frame.  Not collective.
   bool is_in_flow() const;
   /// Stops the water, or lets it flow again.  Not collective.

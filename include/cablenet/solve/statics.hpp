@@ -77,7 +77,6 @@ private:
   bool rub_from_here(bool never_pushes);
   bool is_taut_enough();
   bool leave_saddle();
-  void disturb();
   bool go_by_strings();
   bool go_in_time();
   bool conclude(bool converged);
