@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace cablenet::network {
 namespace {
@@ -17,6 +18,12 @@ constexpr double smoothings = 10, diameters = 0.1;
 struct Buried {
   double depth = 0;   ///< [m]
   int nodes = 0;
+};
+
+/// A point or a body whose contact with the bed lies inside it.
+struct Inside {
+  std::string place;
+  double depth;   ///< [m]
 };
 
 /// A span's element that is drawn stretched most.
@@ -57,6 +64,35 @@ public:
         is_cable && !is_catenary ? ", as shape: catenary does" : "");
   }
 
+  /// An anchor may lie a little in the bed.  What is held more than an element deep is held where nothing can lie.
+  std::string of_held() const {
+    if (!scene_.bed) return {};
+    Buried worst;
+    std::size_t index = 0;
+    for (std::size_t i = 0; i < network_.spans.size(); ++i)
+      if (const Buried held = held_inside(network_.spans[i]); held.depth > worst.depth) worst = held, index = i;
+    if (worst.depth == 0) return {};
+    return fmt::format(
+        "{}: {} of its fixed or moved nodes {} inside the bed, by up to {:.3g} m, from where the bed pushes out what "
+        "hangs there. Put {} above environment.seabed.level, or lower it.",
+        place(index), worst.nodes, worst.nodes > 1 ? "start" : "starts", worst.depth, worst.nodes > 1 ? "them" : "it");
+  }
+
+  std::string of_spots() const {
+    if (!scene_.bed || scene_.starts_static) return {};
+    std::vector<Inside> all;
+    for (const BedSpot<SceneNode>& spot : network_.bed_spots) note_inside(spot, all);
+    const auto depth = [](const Inside& one) { return one.depth; };
+    const auto worst =
+        std::max_element(all.begin(), all.end(), [](const Inside& a, const Inside& b) { return a.depth < b.depth; });
+    if (worst == all.end()) return {};
+    return fmt::format(
+        "{}: it is drawn inside the bed by {:.3g} m, which throws it out at the start{}. Draw it that much higher "
+        "above "
+        "environment.seabed.level, or start from initial: static.",
+        worst->place, worst->depth, others(all, depth, 0, "of the scene's points and bodies"));
+  }
+
   std::string of_stretch() const {
     std::vector<Stretched> all;
     for (std::size_t i = 0; i < scene_.cables.size(); ++i) all.push_back(stretched(i));
@@ -86,16 +122,49 @@ private:
 
   double drawn(const Element& e) const { return (network_.position[e.node[1]] - network_.position[e.node[0]]).norm(); }
 
+  /// A body's deepest spot speaks for the others.
+  void note_inside(const BedSpot<SceneNode>& spot, std::vector<Inside>& all) const {
+    const double depth = scene_.bed->level - network_.position[spot.node].z() + spot.radius;
+    if (depth <= std::max(smoothings * spot.smoothing, diameters * std::sqrt(spot.area))) return;
+    std::string place = place_of(spot.node);
+    if (all.empty() || all.back().place != place) all.push_back({std::move(place), depth});
+    all.back().depth = std::max(all.back().depth, depth);
+  }
+
+  /// Of a point's node, or of one that a body carries.
+  std::string place_of(SceneNode node) const {
+    for (std::size_t i = 0; i < scene_.points.size(); ++i)
+      if (network_.point_node[i] == node)
+        return fmt::format("{}: points.{}", scene_.points[i].where, scene_.points[i].name);
+    std::size_t body = 0;
+    for (std::size_t i = 0; i < network_.bodies.size(); ++i)
+      if (network_.bodies[i].node == node) body = i;
+    for (const CarriedNode& carried : network_.carried)
+      if (carried.node == node) body = static_cast<std::size_t>(carried.body);
+    return fmt::format("{}: bodies.{}", scene_.bodies[body].where, scene_.bodies[body].name);
+  }
+
   Buried buried(const Span& span) const {
+    return nodes_inside(span, false, [this](const Element& element) {
+      const CableOnBed& on_bed = network_.surroundings.on_bed[at(element.material)];
+      return std::max(smoothings * on_bed.smoothing, diameters * on_bed.diameter);
+    });
+  }
+
+  Buried held_inside(const Span& span) const {
+    return nodes_inside(span, true, [](const Element& element) { return element.length; });
+  }
+
+  /// The nodes that are held, or those that are not, which lie deeper than `slight` has it for their elements.
+  template <class Slight>
+  Buried nodes_inside(const Span& span, bool held, const Slight& slight) const {
     double deepest = 0;
     std::vector<SceneNode> nodes;
     for (int i = 0; i < span.elements; ++i) {
       const Element& element = network_.elements[at(span.first_element + i)];
-      const CableOnBed& on_bed = network_.surroundings.on_bed[at(element.material)];
-      const double slight = std::max(smoothings * on_bed.smoothing, diameters * on_bed.diameter);
       for (const SceneNode node : element.node) {
         const double depth = scene_.bed->level - network_.position[node].z();
-        if (is_held_[node] || depth <= slight) continue;
+        if (is_held_[node] != held || depth <= slight(element)) continue;
         deepest = std::max(deepest, depth);
         nodes.push_back(node);
       }
@@ -145,7 +214,7 @@ private:
 std::vector<std::string> drawn_notes(const scene::Scene& scene, const Network& network) {
   const DrawnNotes notes(scene, network);
   std::vector<std::string> found;
-  for (std::string note : {notes.of_bed(), notes.of_stretch()})
+  for (std::string note : {notes.of_bed(), notes.of_held(), notes.of_spots(), notes.of_stretch()})
     if (!note.empty()) found.push_back(std::move(note));
   return found;
 }

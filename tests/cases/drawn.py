@@ -32,7 +32,7 @@ def expect(truth, text):
 def said(command):
     done = subprocess.run(command, env=ENVIRONMENT, text=True, capture_output=True, timeout=60)
     expect(done.returncode == 0, f"{command[-1]}: status {done.returncode}: {done.stderr}")
-    return [line.removeprefix("cablenet: note: ") for line in done.stderr.splitlines() if "drawn" in line]
+    return [line.removeprefix("cablenet: note: ") for line in done.stderr.splitlines() if "drawn" in line or "inside the bed" in line]
 
 
 def drawn(given, patterns, ranks=(), **keys):
@@ -65,6 +65,22 @@ def main():
           rest=net + USUAL["rest"])
     drawn(given, [], one=LOW, rest=USUAL["rest"] + "\ninitial: static")
     drawn(given, [], one=LOW, rest="")
+    # Its elements are 42.5 m long.
+    held = r":9: cables\.one: 1 of its fixed or moved nodes starts inside the bed, by up to 50 m, from where .* Put it above"
+    drawn(given, [held], anchor=-250, one="length: 850", rest="")
+    drawn(given, [], anchor=-240, one="length: 850", rest="")
+    # A sphere of 0.5 m^3 has a radius of 0.4924 m; a cube of 1000 kg with the inertia 1000/6 kg m^2 has edges of 1 m.
+    sphere = "-199.8], mass: 2000, volume: 0.5, velocity: [0, 0, 0"
+    usual = {"two": "length: 250", "end": sphere}
+    [[depth]] = drawn(given, [r":7: points\.r: it is drawn inside the bed by (\S+) m, which throws it out at the start\. Draw"],
+                      (1, 2, 3), **usual)
+    expect(float(depth) == 0.292, f"{depth} m")
+    cube = "bodies: {cube: {mass: 1000, inertia: [166.667, 166.667, 166.667], position: [0, 50, -199.8]}}\n"
+    [[depth]] = drawn(given, [r":11: bodies\.cube: it is drawn inside the bed by (\S+) m, .*; so is 1 of the scene's points and "
+                              r"bodies more\. Draw"], **usual, rest=cube + USUAL["rest"])
+    expect(float(depth) == 0.3, f"{depth} m")
+    drawn(given, [], **usual, rest=cube + USUAL["rest"] + "\ninitial: static")
+    drawn(given, [], two="length: 250", end=sphere.replace("-199.8", "-199.5"))
     way = 447.2136
     [[strain, pull, drawn_length, length]] = drawn(given, [
         r":9: cables\.one: it is drawn (\S+) % stretched in its element \d+ of 20, which pulls with (\S+) N\. Its chords are "
