@@ -29,6 +29,9 @@ constexpr double slight_strain = 1e-3;
 /// T over the total load, and what lambda may be.
 constexpr double string_tension = 0.1, least_lambda = 1e-9, most_lambda = 1e6;
 
+/// What lambda is at most where the shape is near already.
+constexpr double most_lambda_near = 1e-3;
+
 /// A correction of which more than `whole` is taken went well.  One of which less than `part` is taken did not.
 constexpr double whole = 0.9, part = 0.3, easing = 0.1, tightening = 4;
 
@@ -43,12 +46,6 @@ constexpr double turning = 2;
 constexpr int most_drags = 30;
 constexpr double left = 0.03, falling = 0.7, least_share = 0.1;
 
-double largest_stiffness(const partition::LocalNetwork& network) {
-  double largest = 0;
-  for (const auto& material : network.materials) largest = std::max(largest, material.axial_stiffness);
-  return largest;
-}
-
 }   // namespace
 
 Descent::Descent(const Parts& parts, bool never_pushes) : parts_(parts) {
@@ -60,7 +57,7 @@ void Descent::measure_loads(Vec x) {
   PetscReal sum = 0;
   parts_.forces.loads(x, loads_);
   check(VecNorm(loads_, NORM_1, &sum));
-  const double unloaded = slight_strain * largest_stiffness(parts_.assembler.network());
+  const double unloaded = slight_strain * largest_stiffness();
   load_ = sum > 0 ? norm(loads_) : unloaded;
   total_load_ = sum > 0 ? sum : unloaded;
 }
@@ -71,13 +68,25 @@ void Descent::soften(Vec x) {
   lambda_ = 1;
   measure_loads(x);
   if (parts_.forces.sticks()) parts_.forces.hold_friction(x);
-  const double hardest = largest_stiffness(parts_.assembler.network());
+  const double hardest = largest_stiffness();
   for (double soft = softest * total_load_; soft < hardest && !parts_.progress.is_over(); soft *= hardening) {
     if (parts_.forces.is_in_flow()) parts_.forces.hold_drag(x);
     rule_.most_stiffness = soft;
     settle(x, rough * load_, most_of_stage);
   }
   rule_.most_stiffness = infinite;
+}
+
+void Descent::settle_held(Vec x, double goal) {
+  lambda_ = std::min(lambda_, most_lambda_near);
+  settle(x, goal, most_of_held);
+}
+
+double Descent::largest_stiffness() const {
+  double largest = 0;
+  for (const auto& material : parts_.assembler.network().materials)
+    largest = std::max(largest, material.axial_stiffness);
+  return largest;
 }
 
 bool Descent::go_on(Vec x, double goal) {

@@ -6,6 +6,7 @@
 
 #include "cablenet/elements/cable.hpp"
 #include "cablenet/solve/bed_lay.hpp"
+#include "vector_sums.hpp"
 
 namespace cablenet::solve {
 namespace {
@@ -72,6 +73,14 @@ StaticForces::StaticForces(system::Assembler& assembler, double t, const Vector3
   fill_velocity(assembler_.network(), velocity_, v_);
 }
 
+bool StaticForces::may_push() const {
+  const partition::LocalNetwork& network = assembler_.network();
+  int found = !network.links.empty() || std::any_of(network.materials.begin(), network.materials.end(),
+                                                    [](const auto& material) { return !material.tension_only; });
+  MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_INT, MPI_LOR, assembler_.communicator());
+  return found != 0;
+}
+
 bool StaticForces::is_in_flow() const {
   const auto& fluid = assembler_.network().surroundings.fluid;
   if (!fluid || is_stilled_) return false;
@@ -129,6 +138,22 @@ void StaticForces::hold_friction(Vec x, double share) {
 
 void StaticForces::let_friction_follow() {
   if (holds_friction()) sticking_ = system::Sticking::as_it_is;
+}
+
+std::pair<double, double> StaticForces::measure_drag() {
+  PetscReal sum = 0;
+  check(VecNorm(drag_, NORM_1, &sum));
+  return {sum, norm(drag_)};
+}
+
+void StaticForces::soften(const system::StaticRule& rule, Vec x) {
+  assembler_.begin(situation(system::InternalForce::of_statics, rule), x, v_);
+}
+
+void StaticForces::harden(Vec x) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  soften({.kind = system::StaticRule::Kind::descent, .softening = {.ratio = infinite, .over_tension = 0, .least = 1}},
+         x);
 }
 
 void StaticForces::keep(Vec x) {

@@ -47,6 +47,8 @@ const char* way_of(const StaticRule& rule) {
       return "strings";
     case StaticRule::Kind::ropes:
       return "ropes";
+    case StaticRule::Kind::descent:
+      return "softened";
     default:
       return "exact";
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bed_drift.hpp"
 #include "cablenet/petsc/values.hpp"
 #include "cablenet/solve/relaxation.hpp"
 #include "disturbance.hpp"
@@ -52,14 +53,6 @@ constexpr double held_part = 1e-3;
 /// An equilibrium is near the drawn shape if no coordinate is farther from it than this, over the network's extent.
 constexpr double near = 1e-3;
 
-bool can_push(const system::Assembler& assembler) {
-  const partition::LocalNetwork& network = assembler.network();
-  int found = !network.links.empty() || std::any_of(network.materials.begin(), network.materials.end(),
-                                                    [](const auto& material) { return !material.tension_only; });
-  MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_INT, MPI_LOR, assembler.communicator());
-  return found != 0;
-}
-
 }   // namespace
 
 Statics::Statics(system::Assembler& assembler, double t, const Vector3& velocity)
@@ -68,7 +61,7 @@ Statics::Statics(system::Assembler& assembler, double t, const Vector3& velocity
       velocity_(velocity),
       forces_(assembler, t, velocity),
       progress_(assembler.communicator()),
-      may_push_(can_push(assembler)),
+      may_push_(forces_.may_push()),
       x_(assembler.make_vector()),
       drawn_(assembler.make_vector()),
       trial_(assembler.make_vector()),
@@ -169,16 +162,42 @@ bool Statics::go_directly() { return newton_.settle(x_, {StaticRule::Kind::exact
 bool Statics::go_down() {
   check(VecCopy(drawn_, x_));
   const bool found = descend(true);
-  if (!may_push_ || (found && is_taut())) return found && (!is_unstable() || leave_saddle());
-  is_there_without_pushing_ = found;
+  const bool is_done = !may_push_ || (found && is_taut());
+  is_there_without_pushing_ = found && !is_done;
+  return (is_done ? found : let_push(found)) && (!is_unstable() || leave_saddle());
+}
+
+/// From the shape without pushing.  Newton's method comes first.  Where cables push in what it finds, there may be
+/// another shape in which they do not, but in a current the shape is what drag makes it.
+bool Statics::let_push(bool is_equilibrium) {
+  const system::Vector without = assembler_.make_vector(), with = assembler_.make_vector();
+  check(VecCopy(x_, without));
+  const StaticRule predicted{.kind = StaticRule::Kind::descent};
+  const bool arrived = is_equilibrium && newton_.settle(x_, predicted, {0, most_after_descent, false});
+  if (arrived) newton_.count_negative_pivots(x_);
+  if (arrived && (drifts() || is_taut())) return true;
+  check(VecCopy(x_, with));
+  check(VecCopy(without, x_));
   disturb(assembler_.network(), x_);
-  return descend(false) && (!is_unstable() || leave_saddle());
+  if (descend(false)) return true;
+  check(VecCopy(with, x_));
+  if (arrived) newton_.count_negative_pivots(x_);
+  return arrived;
+}
+
+/// A current moves what lies on a bed without friction.
+bool Statics::drifts() const {
+  return forces_.is_in_flow() && assembler_.network().surroundings.bed && !forces_.sticks();
 }
 
 /// Newton's method takes over where the residual is small, and gives back to the descent where that was not enough.
 bool Statics::descend(bool never_pushes) {
   Descent descent(descent_parts(), never_pushes);
-  descent.soften(x_);
+  if (drifts() && BedDrift(descent, forces_, newton_, progress_, never_pushes).find(x_)) {
+    newton_.count_negative_pivots(x_);
+    return true;
+  }
+  if (!drifts()) descent.soften(x_);
   return descend(descent, never_pushes);
 }
 

@@ -165,10 +165,14 @@ void CableTerm::add_energy(const LocalState& state, Energies& sum) const {
 }
 
 void CableTerm::add_potential(const Situation& situation, const LocalState& state, double& sum) const {
-  for (const partition::LocalElement& e : own_elements())
-    sum += e.length * elements::static_tension(situation.rule, network_.materials[at(e.material)],
-                                               (state.chord(e).d.norm() - e.length) / e.length)
-                          .energy;
+  const auto& starts = std::get<std::vector<elements::StaticStart>>(starts_);
+  for (std::size_t i = 0; i < own_elements().size(); ++i) {
+    const partition::LocalElement& e = own_elements()[i];
+    const double softened = i < starts.size() ? starts[i].softened : elements::StaticStart{}.softened;
+    const double strain = (state.chord(e).d.norm() - e.length) / e.length;
+    sum += e.length *
+           elements::static_tension(situation.rule, network_.materials[at(e.material)], strain, softened).energy;
+  }
 }
 
 /// The change of elongation in a step is that from the step's start before.

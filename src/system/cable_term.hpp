@@ -40,7 +40,7 @@ private:
   /// What the laws keep of each element at the step's start: one array per kind.  Only the law in use has elements.
   std::tuple<std::vector<elements::NoStart>, std::vector<elements::AveragedStart<false>>,
              std::vector<elements::AveragedStart<true>>, std::vector<elements::ReachedStart>,
-             std::vector<elements::Stretch>>
+             std::vector<elements::StaticStart>>
       starts_;
   StepBefore taken_;    ///< the last accepted step
   StepBefore before_;   ///< the step before the running one

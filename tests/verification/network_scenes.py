@@ -183,7 +183,9 @@ class Network:
             if self.current:
                 environment["fluid"]["current"] = {"profile": [[-self.depth, 0.05, 0.02, 0], [0, 0.4, 0.1, 0]]}
         if self.bed:
-            environment["seabed"] = {"level": -1.001 * self.depth, "stiffness": self.bed_stiffness / self.diameter}
+            corners = [corner for net in self.parts["nets"].values() for corner in net["corners"]]
+            lowest = min([-self.depth, *(z for *_, z in corners)])   # No edge is held inside the bed.
+            environment["seabed"] = {"level": float(1.001 * lowest), "stiffness": self.bed_stiffness / self.diameter}
         rope = {"mass_per_length": self.mass, "axial_stiffness": self.stiffness, "diameter": self.diameter,
                 "tension_only": self.tension_only}
         if self.water:

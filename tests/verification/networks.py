@@ -5,7 +5,7 @@ from network_scenes import Network
 from statics_support import report_number
 from support import Verification
 
-SEEDS = [seed for seed in range(2, 33) if seed != 19]
+SEEDS = [seed for seed in range(2, 33) if seed != 19] + [69, 137, 261]
 
 
 def solve(v, network, drawn):

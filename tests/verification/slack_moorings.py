@@ -8,6 +8,8 @@ from support import Verification
 # Fourteen draws, three shapes each.  The first ones are lines to fixed fairleads in still water.
 FIXED = (34, 38, 48, 69, 123, 191, 273, 348)
 OTHERS = (1, 3, 6, 8, 18, 19)
+# Cables lie slack on the bed in a current.  They need not end in one shape.
+DRIFTING = (54, 74, 117, 121, 133)
 
 
 class Chain:
@@ -77,6 +79,19 @@ class Chain:
             keep = max(keep / 5, 1e-13) if share > 0.9 else min(3 * keep, 1e3)
 
 
+def check_drifting(v, mooring):
+    for drawn in DRAWN:
+        run, done = v.attempt(mooring.scene(drawn))
+        v.close(f"{mooring.name}, {drawn}: exit status", done.returncode, 0, 0)
+        if done.returncode:
+            print(done.stderr)
+            continue
+        unbalanced = report_number(run, "statics", "largest_unbalanced_force_over_load")
+        if "rounding's share" not in done.stdout:
+            v.check(f"{mooring.name}, {drawn}: unbalanced force", unbalanced, 1e-9)
+        v.check(f"{mooring.name}, {drawn}: iterations", report_number(run, "statics", "iterations"), 500)
+
+
 def solve(v, mooring):
     """From all drawn shapes.  @return their pulls at the lines' ends, one row a shape"""
     rows = []
@@ -119,6 +134,8 @@ def main():
         rows = solve(verification, mooring)
         if seed in FIXED and rows is not None:
             check_least_energy(verification, mooring, rows[0])
+    for seed in DRIFTING:
+        check_drifting(verification, Mooring(seed))
     verification.finish()
 
 

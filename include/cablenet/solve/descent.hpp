@@ -46,6 +46,10 @@ public:
   /// Goes down with the true stiffness of the cables.  It ends where the residual is at most `goal` times the loads.
   /// @returns whether it got there
   bool go_on(Vec x, double goal);
+  /// Goes down with the drag that is held, until the residual is at most `goal` [N] or rounding hides the way.
+  void settle_held(Vec x, double goal);
+  double largest_stiffness() const;   ///< EA [N]
+  system::Vector make_vector() const { return parts_.assembler.make_vector(); }
 
 private:
   /// Of the energy along a correction.  [J]

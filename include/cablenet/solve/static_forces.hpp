@@ -28,6 +28,8 @@ public:
   /// @param velocity  of the frame [m/s]: the water and the bed move past it
   StaticForces(system::Assembler& assembler, double t, const Vector3& velocity);
 
+  /// Some cable or bar may push.
+  bool may_push() const;
   /// Water moves past the frame.  Not collective.
   bool is_in_flow() const;
   /// Stops the water, or lets it flow again.  Not collective.
@@ -40,6 +42,13 @@ public:
   /// From here on the drag follows the shape.
   void let_drag_follow() { holds_drag_ = false; }
   bool holds_drag() const { return holds_drag_; }
+  /// Of the held drag on all nodes: the sum of its components' absolute values, and its 2-norm.  [N]
+  std::pair<double, double> measure_drag();
+
+  /// Softens the elements by their tensions at x, as the rule's softening has it.
+  void soften(const system::StaticRule& rule, Vec x);
+  /// All are as stiff as they are.
+  void harden(Vec x);
 
   /// Springs of friction hold what lies on the bed, from where it was laid (bed_lay.hpp) before it came to x.  Before
   /// this is called there is no such friction.

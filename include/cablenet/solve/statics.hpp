@@ -7,7 +7,8 @@
 ///
 /// Newton's method on the cables as they are comes first.  It finds the equilibrium from a shape that is near it.  From
 /// other shapes it is found by going down in energy (descent.hpp): first as if no cable could push, and from there as
-/// the cables are, where some push.  Newton's method then takes away the rest.
+/// the cables are, where some push.  Newton's method then takes away the rest.  What lies slack on a bed without
+/// friction in a current goes down with soft cables (src/solve/bed_drift.hpp).
 ///
 /// In a flow without a bed, drag rules, and an energy is of little use.  There, and where the descent fails, the way
 /// has three stages, each of which starts from where the one before it ended:
@@ -68,6 +69,8 @@ private:
   bool is_near_drawn();
   bool go_directly();
   bool go_down();
+  bool let_push(bool is_equilibrium);
+  bool drifts() const;
   bool descend(bool never_pushes);
   bool descend(Descent& descent, bool never_pushes);
   Descent::Parts descent_parts();

@@ -1,0 +1,83 @@
+#include "bed_drift.hpp"
+
+#include <tuple>
+
+namespace cablenet::solve {
+namespace {
+
+using petsc::check;
+using system::StaticRule;
+
+/// The residual over the loads at which the equilibrium in still water is near enough.
+constexpr double rough = 0.01;
+
+/// An element's stiffness is, in the first stage, `first_ratio` times the sum of `over_tension` times its tension and
+/// of `share_of_drag` times all drag.  It grows by `hardening` from stage to stage.  What hangs bears much more than
+/// drag, and would stretch far if its own tension alone were its measure.
+constexpr double first_ratio = 3, over_tension = 10, share_of_drag = 0.01, hardening = 4;
+
+/// The residual over the drag at which a descent ends, and a stage.
+constexpr double goal_of_descent = 1e-3, goal_of_stage = 1e-3;
+
+/// How often drag is taken anew in a stage, and Newton's corrections at most.
+constexpr int most_drags = 3, most_corrections = 8, most_last_corrections = 40;
+
+}   // namespace
+
+BedDrift::BedDrift(Descent& descent, StaticForces& forces, StaticNewton& newton, StaticProgress& progress,
+                   bool never_pushes)
+    : descent_(descent),
+      forces_(forces),
+      newton_(newton),
+      progress_(progress),
+      rule_{.kind = StaticRule::Kind::descent, .never_pushes = never_pushes},
+      hardest_(descent.largest_stiffness()),
+      start_(descent.make_vector()) {}
+
+bool BedDrift::find(Vec x) {
+  forces_.still(true);
+  descent_.soften(x);
+  const bool is_near = descent_.go_on(x, rough);
+  forces_.still(false);
+  if (!is_near) return false;
+  harden_in_stages(x);
+  return arrive(x);
+}
+
+bool BedDrift::arrive(Vec x) { return arrive(x, {0, most_last_corrections, false}); }
+
+void BedDrift::harden_in_stages(Vec x) {
+  forces_.hold_drag(x);
+  std::tie(drag_sum_, drag_norm_) = forces_.measure_drag();
+  StaticRule softer = rule_;
+  softer.softening = {.over_tension = over_tension, .least = share_of_drag * drag_sum_};
+  for (double ratio = first_ratio; ratio * softer.softening.least < hardest_ && !progress_.is_over();
+       ratio *= hardening) {
+    softer.softening.ratio = ratio;
+    forces_.soften(softer, x);
+    settle(x, ratio == first_ratio);
+  }
+  forces_.harden(x);
+}
+
+/// In later stages the shape changes little, and Newton's method may arrive at once.
+void BedDrift::settle(Vec x, bool is_first) {
+  const StaticGoal goal{goal_of_stage * drag_norm_, most_corrections, false};
+  if (!is_first && arrive(x, goal)) return;
+  for (int i = 0; i < most_drags; ++i) {
+    forces_.hold_drag(x);
+    descent_.settle_held(x, goal_of_descent * drag_norm_);
+    if (arrive(x, goal)) return;
+  }
+}
+
+bool BedDrift::arrive(Vec x, const StaticGoal& goal) {
+  forces_.let_drag_follow();
+  check(VecCopy(x, start_));
+  newton_.measure_loads(x);
+  if (newton_.settle(x, rule_, goal)) return true;
+  check(VecCopy(start_, x));
+  return false;
+}
+
+}   // namespace cablenet::solve
