@@ -16,7 +16,8 @@ using system::StaticRule;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// The residual over the loads.  Iterating ends at `wanted`.  Where rounding ends it before, `enough` will do.
+/// The residual over the loads.  Iterating ends at `wanted`.  Where rounding ends it before, `enough` will do, also of
+/// the largest component over the largest load on a node.
 constexpr double wanted = 1e-12, enough = 1e-9;
 
 /// A residual of so many times what rounding makes alone passes as rounding.
@@ -73,6 +74,9 @@ void StaticNewton::measure_loads(Vec x) {
   PetscReal sum = 0;
   forces_.loads(x, r_);
   check(VecNorm(r_, NORM_1, &sum));
+  PetscReal largest = 0;
+  check(VecNorm(r_, NORM_INFINITY, &largest));
+  largest_load_ = std::max<double>(largest_load_, largest);
   load_ = norm(r_);
   total_load_ = std::max<double>(sum, std::numeric_limits<double>::min());
 }
@@ -104,14 +108,19 @@ double StaticNewton::rounding() const { return rounding_margin * scales_.roundin
 
 bool StaticNewton::is_final(double now, double previous) const {
   if (now <= wanted * reference()) return true;
+  if (now <= 0.5 * previous) return false;
+  PetscReal largest = 0;
+  check(VecNorm(r_, NORM_INFINITY, &largest));
+  const bool is_enough = now <= enough * reference() && (load_ == 0 || largest <= enough * largest_load_);
   const bool is_lost = largest_coordinate_ > farthest * (largest_drawn_coordinate_ + assembler_.network().extent);
-  return now > 0.5 * previous && (now <= enough * reference() || (!is_lost && now <= rounding()));
+  return is_enough || (!is_lost && now <= rounding());
 }
 
 bool StaticNewton::settle(Vec x, StaticRule rule, const StaticGoal& goal) {
   const double least = rule.least_tension;
   double previous = infinite;
   shift_ = 0;
+  if (goal.norm == 0) measure_loads(x);
   if (rule.kind != StaticRule::Kind::ropes || rule.string_tension > 0) forces_.keep(x);
   for (int i = 0;; ++i) {
     check(VecNorm(x, NORM_INFINITY, &largest_coordinate_));

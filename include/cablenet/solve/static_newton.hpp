@@ -30,7 +30,7 @@ public:
   /// @param drawn  the shape by which forces and coordinates are measured
   StaticNewton(system::Assembler& assembler, StaticForces& forces, StaticProgress& progress, double t, Vec drawn);
 
-  /// Iterates from x.  @returns whether the goal was reached
+  /// Iterates from x.  Without a norm in the goal it measures the loads there.  @returns whether the goal was reached
   bool settle(Vec x, system::StaticRule rule, const StaticGoal& goal);
   /// As they are; and then looks whether the shape is stable.
   bool settle_as_they_are(Vec x, int iterations);
@@ -82,6 +82,7 @@ private:
   bool is_cautious_ = false;
   double shift_ = 0;                      ///< [1/s]
   double load_ = 0, total_load_ = 0;      ///< [N]
+  double largest_load_ = 0;               ///< on a node, so far [N]
   double largest_drawn_coordinate_ = 0;   ///< [m]
   double largest_coordinate_ = 0;         ///< which rounding depends on [m]
   long negative_pivots_ = 0;
