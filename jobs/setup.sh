@@ -9,9 +9,9 @@ packages=(
   libpetsc-real-dev libopenblas0-serial libopenmpi-dev openmpi-bin libmetis-dev libhdf5-openmpi-dev
   libeigen3-dev libyaml-cpp-dev libcli11-dev libfmt-dev libginac-dev libmuparser-dev libgsl-dev libxxhash-dev
   nlohmann-json3-dev
-  libgtest-dev clang-format python3 python3-numpy python3-h5py python3-yaml python3-jsonschema
+  libgtest-dev clang-format python3 python3-numpy python3-h5py python3-yaml python3-jsonschema python3-matplotlib
 )
-picture_packages=(paraview python3-paraview xvfb xauth python3-matplotlib)
+picture_packages=(paraview python3-paraview xvfb xauth)
 
 case "${1-}" in
   "") packages+=("${picture_packages[@]}") ;;

@@ -20,6 +20,8 @@ constexpr auto about =
     "Exit status: 0 done, 2 the scene or the command line is wrong, 3 the solver could not go on,\n"
     "4 output could not be written.";
 
+constexpr auto chart_command = "chart";
+
 bool is_petsc_option(const std::string& word) {
   return word.size() > 2 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1]));
 }
@@ -55,6 +57,14 @@ Command command_of(const CLI::App& app, const CommandLine& line) {
   return name == "check" ? Command::check : Command::schema;
 }
 
+/// Python reads what follows `chart`.
+bool is_chart(const std::vector<std::string>& given, CommandLine& line) {
+  if (given.empty() || given.front() != chart_command) return false;
+  line.command = Command::chart;
+  line.words.assign(given.begin() + 1, given.end());
+  return true;
+}
+
 /// The program's own options beside PETSc's, for --help.
 std::string options_text() {
   std::string text = "Options beside PETSc's own (those: cablenet run -help):\n";
@@ -71,6 +81,7 @@ std::string options_text() {
 
 CommandLine parse_command_line(const std::vector<std::string>& given) {
   CommandLine line;
+  if (is_chart(given, line)) return line;
   std::vector<std::string> words = given;
   line.petsc_options = take_petsc_options(words);
   CLI::App app{about, "cablenet"};
@@ -88,6 +99,7 @@ CommandLine parse_command_line(const std::vector<std::string>& given) {
   check->add_option("SCENE", line.scene, "the scene, a YAML file")->required();
   CLI::App* schema = app.add_subcommand("schema", "print a JSON Schema of scene files, for editors");
   schema->add_flag("--markdown", line.wants_markdown, "print the reference of all keys instead");
+  app.add_subcommand(chart_command, "chart the cost of a scene over its accuracy, and tell the cheapest settings");
   try {
     std::reverse(words.begin(), words.end());
     app.parse(words);

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "cablenet/app/command_line.hpp"
+#include "cablenet/app/python_part.hpp"
 #include "cablenet/app/simulation.hpp"
 #include "cablenet/base/errors.hpp"
 #include "cablenet/base/floating_point.hpp"
@@ -122,6 +123,7 @@ int run(const std::string& program, const std::vector<std::string>& words) {
   } catch (const InputError& error) {
     problem = error.what();
   }
+  if (line && line->command == Command::chart) return become_python_part("chart", line->words);
   const petsc::Session session(program, line ? line->petsc_options : std::vector<std::string>{});
   try {
     if (!line) throw InputError(problem);

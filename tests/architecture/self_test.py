@@ -95,10 +95,18 @@ class Sizes(unittest.TestCase):
         found, printed = self.sizes("src/app/table.cpp", table)
         self.assertEqual(found, 0, printed)
 
+    def test_functions_in_python(self):
+        for lines, status in ((40, 0), (41, 1)):
+            text = "class A:\n    def planted(self):\n" + "        x = 1\n" * (lines - 1) + "\n\ny = 2\n"
+            found, printed = self.sizes("src/app/planted.py", text)
+            self.assertEqual(found, status, printed)
+            self.assertEqual("src/app/planted.py:2: planted has 41 lines" in printed, status == 1, printed)
+
     def test_files(self):
-        for name, limit in (("include/cablenet/app/long.hpp", 120), ("src/app/long.cpp", 300)):
-            self.assertEqual(self.sizes(name, "int x;\n" * limit)[0], 0)
-            found, printed = self.sizes(name, "int x;\n" * (limit + 1))
+        for name, limit in (("include/cablenet/app/long.hpp", 120), ("src/app/long.cpp", 300), ("src/app/long.py", 300)):
+            line = "x = 1\n" if name.endswith(".py") else "int x;\n"
+            self.assertEqual(self.sizes(name, line * limit)[0], 0)
+            found, printed = self.sizes(name, line * (limit + 1))
             self.assertEqual(found, 1, printed)
             self.assertIn(f"{limit + 1} lines, at most {limit}", printed)
 

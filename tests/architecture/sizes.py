@@ -1,5 +1,6 @@
 """The size rule: headers <= 120 lines, sources <= 300, functions <= 40."""
 import argparse
+import ast
 import pathlib
 import re
 import sys
@@ -58,13 +59,19 @@ def functions(text):
     return found
 
 
+def python_functions(text):
+    """The same of a file in Python."""
+    return [(node.name, node.lineno, node.end_lineno - node.lineno + 1) for node in ast.walk(ast.parse(text))
+            if isinstance(node, ast.FunctionDef)]
+
+
 def complaints_in(path):
     text = path.read_text(encoding="utf-8")
     lines = text.count("\n")
     limit = HEADER_LINES if path.suffix == ".hpp" else SOURCE_LINES
     if lines > limit:
         yield f"{path}: {lines} lines, at most {limit}"
-    for name, line, length in functions(text):
+    for name, line, length in python_functions(text) if path.suffix == ".py" else functions(text):
         if length > FUNCTION_LINES:
             yield f"{path}:{line}: {name} has {length} lines, at most {FUNCTION_LINES}"
 
@@ -73,7 +80,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--root", type=pathlib.Path, required=True)
     root = parser.parse_args().root
-    files = sorted(path for top in ("include", "src") for suffix in ("hpp", "cpp")
+    files = sorted(path for top in ("include", "src") for suffix in ("hpp", "cpp", "py")
                    for path in (root / top).rglob(f"*.{suffix}"))
     complaints = [text for path in files for text in complaints_in(path)]
     print("\n".join(complaints + [f"{len(files)} files, {len(complaints)} complaints"]))

@@ -23,6 +23,14 @@ def complaints(build, prefix, folder):
                           capture_output=True, text=True)
     if done.returncode or not (folder / "run" / "run.yaml").is_file():
         yield f"the installed program exits with {done.returncode} on {scene}: {done.stdout}{done.stderr}"
+    done = subprocess.run([prefix / "bin" / "cablenet", "chart", scene, "-o", folder / "chart"], cwd=folder, env=ENVIRONMENT,
+                          capture_output=True, text=True)
+    if done.returncode or not (folder / "chart" / "chart.png").is_file():
+        yield f"the installed program's chart exits with {done.returncode} on {scene}: {done.stdout}{done.stderr}"
+    shutil.rmtree(prefix / "share" / "cablenet")
+    done = subprocess.run([prefix / "bin" / "cablenet", "chart", scene], cwd=folder, env=ENVIRONMENT, capture_output=True, text=True)
+    if done.returncode != 2 or str(prefix / "share" / "cablenet" / "chart") not in done.stderr:
+        yield f"without its Python part the chart exits with {done.returncode} and says {done.stderr}"
 
 
 def main():

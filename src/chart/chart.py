@@ -1,0 +1,97 @@
+"""The chart of a scene, from the check of the scene to the files."""
+import contextlib
+import fcntl
+import os
+import shutil
+import subprocess
+import sys
+
+import yaml
+
+import picture
+import records
+import table
+from choice import Chooser
+from findings import Findings
+from messages import NO_OUTPUT, NO_SOLUTION, Progress, Refusal, percent
+from runs import Runner
+from scene_text import SceneText
+from survey import Survey
+from variants import Variants
+
+ACCURACIES = (0.1, 0.01, 0.001, 0.0001)
+
+
+def read_scene(program, path):
+    """The scene's text; the program itself says what is wrong with it."""
+    done = subprocess.run([program, "check", str(path)], capture_output=True, text=True)
+    if done.returncode:
+        print(done.stderr, end="", file=sys.stderr)
+        raise SystemExit(done.returncode)
+    try:
+        return SceneText(path.read_text(encoding="utf-8"), path.resolve().parent)
+    except yaml.YAMLError as error:
+        words = " ".join(str(error).split())
+        raise Refusal(f"{path}: Python's reader of YAML does not understand it: {words}") from error
+
+
+def launcher(program, ranks):
+    if ranks == 1:
+        return [program]
+    if not shutil.which("mpirun"):
+        raise Refusal(f"--ranks {ranks} needs mpirun, which is not in the path")
+    return ["mpirun", "-n", str(ranks), program]
+
+
+@contextlib.contextmanager
+def own_folder(folder):
+    """Makes the chart's folder, and keeps other charts out of it."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        lock = open(folder / ".lock", "w", encoding="utf-8")
+    except OSError as error:
+        raise Refusal(f"{folder} cannot be written: {error.strerror}", NO_OUTPUT) from None
+    with lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise Refusal(f"another chart is at work in {folder}", NO_OUTPUT) from None
+        yield
+
+
+def make_chart(program, given):
+    scene = read_scene(program, given.scene)
+    if given.write and not (given.write.resolve().parent.is_dir() and os.access(given.write.resolve().parent, os.W_OK)):
+        raise Refusal(f"--write {given.write} cannot be written: there is no such folder, or no right to it", NO_OUTPUT)
+    with own_folder(given.folder):
+        progress = Progress()
+        variants = Variants(scene)
+        runner = Runner(launcher(program, given.ranks), variants, given.folder.resolve(), given.budget, progress)
+        try:
+            survey = Survey(runner, variants, given.schemes)
+            survey.explore()
+            chooser = Chooser(survey)
+            wanted = sorted({*ACCURACIES, *filter(None, [given.accuracy])}, reverse=True)
+            choices = [chooser.choose(accuracy) for accuracy in wanted]
+            for run in [choice.run for choice in choices if choice.run] + [runner.all[survey.own]]:
+                runner.repeat(run)
+        finally:
+            progress.finish()
+        findings = Findings(given, survey, chooser, choices)
+        records.write(findings)
+        picture.draw(findings)
+        print(table.text(findings))
+        return write_scene(given, findings) if given.write else 0
+
+
+def write_scene(given, findings):
+    choice = findings.choice(given.accuracy)
+    if choice.run is None:
+        raise Refusal(f"--accuracy {given.accuracy:g}: {findings.why_not(choice)}; {given.write} is not written",
+                      NO_SOLUTION)
+    head = (f"# By cablenet chart: {percent(choice.error)} of the range of {choice.column}, the worst quantity, "
+            f"for {percent(given.accuracy)}.\n")
+    text = findings.survey.variants.written_text(choice.run.settings, given.write.resolve().parent)
+    given.write.write_text(head + text, encoding="utf-8")
+    print(f"{given.write}: the scene with these settings")
+    return 0

@@ -1,0 +1,128 @@
+"""The cheapest settings for an accuracy: guessed from the ladders, then run.
+
+A guess adds the error of the mesh and that of the step, as series.  Its cost is that of the Newton iterations of the
+step's rung with the elements of the mesh's:  iterations (a + b elements), with a and b fitted to what was measured.
+"""
+import dataclasses
+
+import numpy
+
+from runs import TOO_DEAR, Run
+from variants import Settings
+
+# So many guesses are run for an accuracy and a family, and so much may a guess err by more than is asked for.
+TRIALS, HOPE = 4, 1.3
+
+# What takes less is too short to be measured well, and is told by the fit [s].
+SHORTEST = 0.02
+
+# No machine takes less for an element in an iteration [s], and clocks of CPU time may show nothing for a short run.
+LEAST_RATE = 2e-8
+
+# Another family than the scene's is tried, and taken, where it is cheaper by this factor.
+WORTH = 1.2
+
+
+# An accuracy is not judged by less than this share of the quantities.
+LEAST_TOLD = 0.5
+
+
+@dataclasses.dataclass
+class Choice:
+    accuracy: float
+    run: Run | None                                 # None: nothing that was run reaches it
+    error: float = numpy.nan
+    column: str = ""                                # the worst
+    left_out: list = dataclasses.field(default_factory=list)      # columns that cannot tell of this accuracy
+    best: Run | None = None                         # where nothing reaches it: the run with the least error
+
+
+class Chooser:
+    def __init__(self, survey):
+        self.survey, self.runner, self.reference = survey, survey.runner, survey.reference
+
+    def fitted_cost(self, family, newton, elements):
+        """Of so many iterations with so many elements [s]; the fit is to relative errors."""
+        runs = [run for run in self._finished(family) if run.newton] or self.runner.finished
+        # A run that is hardly measured counts little.
+        weight = numpy.array([1 / (run.cost + 0.2 * SHORTEST) for run in runs])
+        counts = numpy.array([[run.newton, run.newton * run.elements] for run in runs], float)
+        cost = numpy.array([run.cost for run in runs])
+        (fixed, growing), *_ = numpy.linalg.lstsq(counts * weight[:, None], cost * weight, rcond=None)
+        if fixed < 0 or growing < LEAST_RATE:
+            fixed, growing = 0.0, max(LEAST_RATE, float(numpy.median(cost / counts[:, 1])))
+        return newton * (fixed + growing * elements)
+
+    def cost(self, run):
+        """CPU seconds of statics and steps, as measured, or fitted where they are too short."""
+        fitted = self.fitted_cost(family_of(run.settings), run.newton, run.elements)
+        return run.cost if max(run.cost, fitted) > SHORTEST else fitted
+
+    def _finished(self, family):
+        return [run for run in self.runner.finished if family_of(run.settings) == family]
+
+    def measured(self, run, accuracy):
+        return self.reference.worst(self.reference.errors(run), accuracy)
+
+    def choose(self, accuracy):
+        told = self.reference.told(accuracy)
+        left_out = [name for name in self.reference.columns if name not in told]
+        if len(told) < LEAST_TOLD * len(self.reference.columns) or not told:
+            return Choice(accuracy, None, left_out=left_out)
+        best = None
+        for family in self._families():
+            best = self._try(family, accuracy, best)
+        if best is None:
+            nearest = min(self.runner.finished, key=lambda run: self.measured(run, accuracy)[0])
+            return Choice(accuracy, None, *self.measured(nearest, accuracy), left_out, nearest)
+        return Choice(accuracy, best, *self.measured(best, accuracy), left_out)
+
+    def _families(self):
+        return list(self.survey.ladders) or [None]
+
+    def _try(self, family, accuracy, best):
+        """Runs guesses, from the cheapest on, until one reaches the accuracy.  @returns the cheapest that does"""
+        trials = TRIALS
+        is_wanted = family == self._families()[0] or family[0] in self.survey.schemes
+        for cost, settings in self._guesses(family, accuracy):
+            if trials == 0 or (not is_wanted and best is not None and cost > self.cost(best) / WORTH):
+                break
+            trials -= settings not in self.runner.all
+            run = self.runner.run(settings)
+            if run.status == TOO_DEAR or (run.is_finished and self.measured(run, accuracy)[0] <= accuracy):
+                break
+        reach = [run for run in self._finished(family) if self.measured(run, accuracy)[0] <= accuracy]
+        found = min(reach, key=self.cost, default=best)
+        return found if best is None or self.cost(found) * WORTH < self.cost(best) else best
+
+    def _guesses(self, family, accuracy):
+        """(cost, settings) of what may reach the accuracy, cheapest first."""
+        steps, meshes = self.survey.ladders.get(family), self.survey.mesh_ladder
+        step_runs, mesh_runs = ([None] if ladder is None else ladder.runs for ladder in (steps, meshes))
+        step_shares = [self._share(self.survey.step_ladder, run) for run in step_runs]
+        mesh_shares = [self._share(meshes, run) for run in mesh_runs]
+        found = [(self._guessed_cost(family, step_run, mesh_run), self._settings(step_run, mesh_run))
+                 for step_run, step_share in zip(step_runs, step_shares)
+                 for mesh_run, mesh_share in zip(mesh_runs, mesh_shares)
+                 if self._guess([step_share, mesh_share], accuracy) <= HOPE * accuracy]
+        return sorted(found, key=lambda pair: pair[0])
+
+    def _share(self, ladder, run):
+        return self.reference.share(ladder, run) if run else None
+
+    def _guess(self, shares, accuracy):
+        """The error of a step and a mesh together."""
+        shares = [share for share in shares if share]
+        return max(self.reference.error(name, sum(share[name] for share in shares))[0]
+                   for name in self.reference.told(accuracy))
+
+    def _settings(self, step_run, mesh_run):
+        mesh = mesh_run.settings.mesh if mesh_run else self.survey.mesh
+        return Settings(mesh, step_run.settings.stepping if step_run else None)
+
+    def _guessed_cost(self, family, step_run, mesh_run):
+        return self.fitted_cost(family, (step_run or mesh_run).newton, (mesh_run or step_run).elements)
+
+
+def family_of(settings):
+    return settings.stepping.family if settings.stepping else None

@@ -1,0 +1,61 @@
+"""cablenet chart SCENE [options]: reads the command line, and refuses what makes no sense."""
+import argparse
+import pathlib
+
+from messages import Refusal
+
+SCHEMES = ("energy_momentum", "generalized_alpha", "plain")
+
+ABOUT = """Charts the cost of a scene over its accuracy: runs it with more and fewer elements, longer and shorter steps,
+and tells the cheapest settings for 10, 1, 0.1 and 0.01 % of the range of each history quantity."""
+
+END = """Finished runs are kept in DIR and not done again. Exit status: 0 done, 2 the scene or the command line is
+wrong, or the budget too small, 3 no settings reach what was asked for, 4 output could not be written, 5 stopped by a
+signal."""
+
+
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise Refusal(f"{message}; see cablenet chart --help")
+
+
+def number(kind, is_allowed, expected):
+    """Reads a number, or says what is allowed."""
+    def read(text):
+        try:
+            value = kind(text)
+        except ValueError:
+            value = None
+        if value is None or not is_allowed(value):
+            raise argparse.ArgumentTypeError(f"{text} is not allowed; expected {expected}")
+        return value
+    return read
+
+
+SECONDS = number(float, lambda value: 0 < value < float("inf"), "a number of seconds > 0")
+SHARE = number(float, lambda value: 0 < value < 1, "a share of the range between 0 and 1, as 0.01")
+RANKS = number(int, lambda value: value >= 1, "an integer >= 1")
+
+
+def parse(words):
+    parser = Parser(prog="cablenet chart", description=ABOUT, epilog=END, allow_abbrev=False)
+    parser.add_argument("scene", metavar="SCENE", type=pathlib.Path, help="the scene, a YAML file")
+    parser.add_argument("-o", metavar="DIR", dest="folder", type=pathlib.Path,
+                        help="folder for the runs and the chart; default: SCENE's name with .chart, where you are")
+    parser.add_argument("--budget", metavar="S", type=SECONDS, default=50.0,
+                        help="CPU seconds for all runs together, those that are kept included; ladders are cut from "
+                        "their dear end (default: 50)")
+    parser.add_argument("--accuracy", metavar="A", type=SHARE, help="one more row of the table, as 0.01 for 1 %%")
+    parser.add_argument("--write", metavar="SCENE2", type=pathlib.Path,
+                        help="write the scene with the cheapest settings for --accuracy")
+    parser.add_argument("--schemes", metavar="NAME", nargs="+", choices=SCHEMES, default=[],
+                        help="chart these schemes, too: " + ", ".join(SCHEMES))
+    parser.add_argument("--ranks", metavar="N", type=RANKS, default=1, help="ranks of each run, started by mpirun")
+    given = parser.parse_args(words)
+    if given.write and given.accuracy is None:
+        parser.error("--write needs --accuracy, which says what settings are wanted")
+    if given.write and given.write.resolve() == given.scene.resolve():
+        parser.error(f"--write {given.write} is the scene itself; name another file")
+    if given.folder is None:
+        given.folder = pathlib.Path(given.scene.stem + ".chart")
+    return given

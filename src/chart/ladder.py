@@ -1,0 +1,73 @@
+"""A ladder: runs that differ in one size, from coarse to fine.  Its limit is Richardson's.
+
+    u(s) = u(0) + C s^p,   d_k = u_k+1 - u_k,   p = log(|d_k-1| / |d_k|) / log r,   u(0) = u_n + d_n-1 / (r^p - 1)
+
+where r is the ratio of two sizes.  |.| is the root of the mean square over time.
+"""
+import numpy
+
+# A ladder whose differences fall by less than this order does not converge, and is not extrapolated.
+LEAST_ORDER = {"mesh": 0.7, "step": 0.7, "tolerance": 0.25}
+
+# The order of the method; what seems to be more is chance.  A tolerance is for the error of a step, which is of third
+# order, and steps add up to an error of second order, so that the error goes with its power of 2/3 up to 1.
+ORDER = {"mesh": 2.0, "step": 2.0, "tolerance": 1.0}
+
+
+def rms(values):
+    return float(numpy.sqrt(numpy.mean(values**2))) if values.size else 0.0
+
+
+class Ladder:
+    def __init__(self, kind, sizes, runs):
+        """@param kind  mesh, step or tolerance   @param sizes  of the finished runs, falling"""
+        self.kind, self.sizes, self.runs = kind, list(sizes), list(runs)
+        self.last = len(self.runs) - 1
+
+    def __len__(self):
+        return len(self.runs)
+
+    def rung(self, place, column):
+        return self.runs[place].columns[column]
+
+    def step_to(self, place, column):
+        """What the rung at `place` differs by from the coarser one: a series."""
+        return self.rung(place, column) - self.rung(place - 1, column)
+
+    def log_ratio(self, place):
+        return float(numpy.log(self.sizes[place - 1] / self.sizes[place]))
+
+    def order(self, column, mask, last=None):
+        """What the three rungs that end at `last`, or with the finest, show.  None where nothing shows."""
+        last = self.last if last is None else last
+        if last < 2:
+            return None
+        coarse, fine = (rms(self.step_to(place, column)[mask]) for place in (last - 1, last))
+        if fine <= 0 or coarse <= 0:
+            return None
+        return 2 * float(numpy.log(coarse / fine)) / (self.log_ratio(last - 1) + self.log_ratio(last))
+
+    def correction(self, column, mask, last=None):
+        """From the rung at `last`, or the finest, to the limit: a series."""
+        last = self.last if last is None else last
+        order = self.order(column, mask)
+        order = ORDER[self.kind] if order is None else min(order, ORDER[self.kind])
+        if last < 1 or order < LEAST_ORDER[self.kind]:
+            return numpy.zeros_like(self.rung(last, column))
+        return self.step_to(last, column) / (numpy.exp(order * self.log_ratio(last)) - 1)
+
+    def limit(self, column, mask):
+        return self.rung(self.last, column) + self.correction(column, mask)
+
+    def doubt(self, column, mask):
+        """How far the limit may be off: by half of what the finest rung has moved it, or a tenth of what it adds."""
+        if self.last < 1:
+            return 0.0
+        added = rms(self.correction(column, mask)[mask])
+        if self.last < 2:
+            return added
+        order = self.order(column, mask)
+        if order is not None and order < LEAST_ORDER[self.kind]:
+            return rms(self.step_to(self.last, column)[mask])
+        before = self.rung(self.last - 1, column) + self.correction(column, mask, self.last - 1)
+        return max(0.1 * added, 0.5 * rms((self.limit(column, mask) - before)[mask]))

@@ -1,0 +1,146 @@
+"""A scene's text with the places of its keys.  An edit changes the values that it names, and nothing else.
+
+The text is not read and written anew, so that comments stay, and numbers that YAML 1.1 and 1.2 read differently.
+"""
+import json
+import os
+import pathlib
+
+import yaml
+
+LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+
+
+def is_number(text):
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def flow_text(value):
+    """A value in YAML's flow style: text as it is, a map in braces."""
+    if not isinstance(value, dict):
+        return value
+    return "{" + ", ".join(f"{key}: {flow_text(part)}" for key, part in value.items()) + "}"
+
+
+def true_end(node):
+    """Where a node's text ends.  The parser ends a block only where the next token begins."""
+    if isinstance(node, yaml.ScalarNode) or node.flow_style:
+        return node.end_mark.index
+    last = node.value[-1]
+    return true_end(last[1] if isinstance(last, tuple) else last)
+
+
+def children(node):
+    """(key, node) of a map's values or a list's items."""
+    if isinstance(node, yaml.MappingNode):
+        return [(key.value, value) for key, value in node.value]
+    return list(enumerate(node.value)) if isinstance(node, yaml.SequenceNode) else []
+
+
+def scalars(node, path=()):
+    """(path, node) of all values below a node that are neither maps nor lists."""
+    if isinstance(node, yaml.ScalarNode):
+        yield path, node
+    for key, part in children(node):
+        yield from scalars(part, (*path, key))
+
+
+class SceneText:
+    def __init__(self, text, folder):
+        """@param folder  where the scene lies: the files that it names are found from there"""
+        self.text = text
+        self.folder = pathlib.Path(folder)
+        self.root = yaml.compose(text, Loader=LOADER)
+
+    def find(self, *path):
+        """The node at a path of keys; None where there is none."""
+        node = self.root
+        for key in path:
+            node = next((part for name, part in children(node) if name == key), None)
+        return node
+
+    def value(self, *path, default=None):
+        """The text of a value; `default` where the key is absent."""
+        node = self.find(*path)
+        return default if node is None else node.value
+
+    def number(self, *path, default=None):
+        text = self.value(*path)
+        return default if text is None else float(text)
+
+    def names(self, section):
+        node = self.find(section)
+        return [] if node is None else [key for key, _ in children(node)]
+
+    def elements(self):
+        """{path: number} of all keys `elements` of cables."""
+        cables = self.find("cables")
+        return {("cables", *path): int(node.value) for path, node in scalars(cables)
+                if path[-1] == "elements"} if cables is not None else {}
+
+    def files(self, folder=None):
+        """{path: text} of all values that name a file, with the file's place seen from `folder`, or else absolute."""
+        found = {}
+        for path, node in scalars(self.root):
+            if "." not in node.value or is_number(node.value) or os.path.isabs(node.value):
+                continue
+            target = (self.folder / node.value).resolve()
+            if target.is_file():
+                found[path] = json.dumps(os.path.relpath(target, folder) if folder else str(target))
+        return found
+
+    def edited(self, values):
+        """The text with new values.
+        @param values  {path: text}; None takes a key of a map away, and what is absent is added"""
+        edits, added = [], {}
+        for path, text in values.items():
+            if self.find(*path) is not None:
+                edits.append(self._replacement(path, text))
+            elif text is not None:
+                self._add(path, text, added)
+        edits += [self._insertion(self.find(*place), keys) for place, keys in added.items()]
+        text = self.text
+        for start, end, new in sorted(set(edits), reverse=True):
+            text = text[:start] + new + text[end:]
+        return text
+
+    def _replacement(self, path, text):
+        if text is None:
+            return self._removal(path)
+        node = self.find(*path)
+        end = true_end(node)
+        # What stands before a plain word, an anchor, stays.
+        plain = isinstance(node, yaml.ScalarNode) and self.text[:end].endswith(node.value)
+        return (end - len(node.value) if plain else node.start_mark.index, end, text)
+
+    def _removal(self, path):
+        """The part of the text that holds one key of a map, the separator included."""
+        pairs = self.find(*path[:-1]).value
+        place = next(i for i, (key, _) in enumerate(pairs) if key.value == path[-1])
+        start, end = pairs[place][0].start_mark.index, true_end(pairs[place][1])
+        if place + 1 < len(pairs):
+            end = pairs[place + 1][0].start_mark.index
+        elif place:
+            start = true_end(pairs[place - 1][1])
+        return (start, end, "")
+
+    def _add(self, path, text, added):
+        """Puts an absent key into `added`: {path of the map that exists: {key: text or map}}."""
+        known = next(n for n in range(len(path) - 1, -1, -1) if self.find(*path[:n]) is not None)
+        keys = added.setdefault(path[:known], {})
+        for key in path[known:-1]:
+            keys = keys.setdefault(key, {})
+        keys[path[-1]] = text
+
+    def _insertion(self, node, keys):
+        """New keys before a map's first one."""
+        if node.flow_style:
+            start = self.text.index("{", node.start_mark.index) + 1
+            return (start, start, flow_text(keys)[1:-1] + (", " if node.value else ""))
+        first = node.value[0][0].start_mark
+        lines = [f"{key}: {flow_text(value)}\n" + " " * first.column for key, value in keys.items()]
+        return (first.index, first.index, "".join(lines))

@@ -1,0 +1,191 @@
+"""Which runs are done: a ladder of steps at one mesh, a ladder of meshes at one step, and ladders of other families.
+
+Each ladder is climbed from its cheap end, until its own error is small, it ends, or its part of the budget is used.
+"""
+import fractions
+
+import numpy
+
+import history
+from ladder import LEAST_ORDER, Ladder, rms
+from messages import NO_SOLUTION, Refusal, seconds
+from reference import Reference
+from runs import TOO_DEAR
+from variants import Settings, Stepping
+
+MESHES = [fractions.Fraction(1, 4), fractions.Fraction(1, 2), fractions.Fraction(1), fractions.Fraction(2),
+          fractions.Fraction(4)]
+COARSEST_MESH = fractions.Fraction(1, 32)
+FINEST_STEP = -3                       # a power of 2 of the scene's step
+TOLERANCES = range(3, -4, -1)          # powers of 4 of the scene's tolerance
+RELATIVE_TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)      # of the largest range of a position
+
+# Shares of the budget: each of the two ladders that lead to the reference, and each other family's.
+LADDER_SHARE, FAMILY_SHARE = 0.35, 0.1
+
+# Meshes are compared at a step that errs by no more than this; steps are made no finer where they err by this.
+STEP_OF_MESHES, SMALL = 0.01, 3e-5
+COARSE = 0.1
+
+
+class Survey:
+    def __init__(self, runner, variants, schemes):
+        self.runner, self.variants = runner, variants
+        self.own = variants.own()
+        self.mesh = fractions.Fraction(1)             # of the ladders of steps
+        self.stepping = self.own.stepping             # of the ladder of meshes
+        self.ladders = {}                             # {family: ladder of steps}; that of the scene comes first
+        self.mesh_ladder = self.step_ladder = None
+        self.schemes = schemes
+        self.reference = None
+
+    def explore(self):
+        if not self.variants.is_static:
+            self._climb_steps()
+        self.mesh_ladder = self._climb_meshes()
+        main = [ladder for ladder in (self.mesh_ladder, self.step_ladder) if ladder is not None]
+        common = self.runner.run(Settings(self.mesh, self.stepping))
+        self._demand(common, main)
+        self.reference = Reference(main, common, self.variants.is_static)
+        self.runner.run(self.own)
+        if not self.variants.is_static:
+            self._climb_families()
+
+    def _demand(self, common, ladders):
+        """Refuses where there is nothing to tell the truth by."""
+        if common.is_finished and all(len(ladder) > 1 for ladder in ladders):
+            return
+        done, finished = list(self.runner.all.values()), len(self.runner.finished)
+        if any(run.status == TOO_DEAR for run in done):
+            raise Refusal(f"a budget of {self.runner.budget:.4g} s is too small: {seconds(self.runner.spent)} of CPU "
+                          f"went into {finished} runs, which are kept, and a chart needs three in each ladder; "
+                          f"give it --budget {self._enough():.0f}")
+        why = next((f": {run.message}" for run in done if run.message), "")
+        raise Refusal(f"of {len(done)} runs {finished} got through, too few for a chart{why}", NO_SOLUTION)
+
+    def _enough(self):
+        """A budget that would do [s]."""
+        dear = [self.runner.expected_cpu(run.settings) for run in self.runner.all.values() if run.status == TOO_DEAR]
+        return numpy.ceil(4 * (self.runner.spent + sum(dear)))
+
+    # Ladders.
+
+    def _climb(self, kind, settings, size, share):
+        """@param settings  of all rungs, coarse to fine   @param size  of a run"""
+        allowance = share * self.runner.budget
+        runs, spent = [], 0.0
+        for rung in settings:
+            before = self.runner.spent
+            run = self.runner.run(rung, allowance - spent)
+            spent += self.runner.spent - before
+            if run.status == TOO_DEAR:
+                break
+            if run.is_finished and (not runs or size(run) < size(runs[-1])):
+                runs.append(run)
+            if len(runs) > 2 and self._error(Ladder(kind, map(size, runs), runs), len(runs) - 1) < SMALL:
+                break
+        return Ladder(kind, map(size, runs), runs)
+
+    def _error(self, ladder, place):
+        """What a rung errs by in its ladder's size, by the ladder alone; of all columns that converge."""
+        if ladder.last < 2:
+            return numpy.inf
+        run = ladder.runs[-1]
+        scale = history.scales(run.columns, self.variants.is_static)
+        mask = numpy.arange(len(run.times)) > (0 if len(run.times) > 1 else -1)
+        worst = 0.0
+        for column in (name for name in run.columns if scale[name] > 0 and history.kind_of(name) != "acceleration"):
+            order = ladder.order(column, mask)
+            if order is None or order >= LEAST_ORDER[ladder.kind]:
+                worst = max(worst, rms((ladder.limit(column, mask) - ladder.rung(place, column))[mask]) / scale[column])
+            elif rms(ladder.step_to(ladder.last, column)[mask]) > SMALL * scale[column] and place == ladder.last:
+                return numpy.inf
+        return worst
+
+    def _distance(self, run, other):
+        """How far two runs lie apart, in their worst column."""
+        scale = history.scales(other.columns, self.variants.is_static)
+        return max((rms(run.columns[name] - other.columns[name]) / scale[name] for name in other.columns
+                    if scale[name] > 0 and history.kind_of(name) != "acceleration"), default=0.0)
+
+    def _climb_steps(self):
+        rungs = self._tolerances() if self.own.stepping.tolerance else self._steps(self.own.stepping.step, "")
+        self.mesh = self._mesh_of_steps(rungs)
+        kind = "tolerance" if self.own.stepping.tolerance else "step"
+        ladder = self._climb(kind, [Settings(self.mesh, rung) for rung in rungs], self._step_size(kind), LADDER_SHARE)
+        self.ladders[self.own.stepping.family] = self.step_ladder = ladder
+        if not len(ladder):
+            return
+        near = (run for run in ladder.runs if self._distance(run, ladder.runs[-1]) <= STEP_OF_MESHES)
+        self.stepping = next(near).settings.stepping
+
+    def _mesh_of_steps(self, rungs):
+        """As fine as the scene's, where the ladder's middle is within the budget."""
+        if not self.variants.has_meshes:
+            return fractions.Fraction(1)
+        self.runner.run(Settings(MESHES[0], rungs[0]))
+        middle = rungs[min(4, len(rungs) - 1)]
+        allowed = 0.5 * LADDER_SHARE * self.runner.budget
+        fits = (mesh for mesh in MESHES[2::-1] if self.runner.expected_cpu(Settings(mesh, middle)) <= allowed)
+        return next(fits, MESHES[0])
+
+    def _step_size(self, kind):
+        span = self.variants.scene.number("time", "end") - self.variants.scene.number("time", "start", default=0.0)
+        return (lambda run: span / run.steps) if kind == "step" else (lambda run: run.settings.stepping.tolerance)
+
+    def _steps(self, step, scheme):
+        """Steps that divide the time between outputs, by factors of 2 around `step`, long to short."""
+        unit = self.variants.unit
+        count = int(numpy.ceil(unit / step * (1 - 1e-9)))
+        found = {}
+        for power in range(int(numpy.log2(count)) + 1, FINEST_STEP - 1, -1):
+            divisor = max(1, round(count * 2.0**-power))
+            found[divisor] = Stepping(scheme, step if power == 0 else unit / divisor)
+        return list(found.values())
+
+    def _tolerances(self):
+        own = self.own.stepping
+        return [Stepping(own.scheme, own.step, own.tolerance * 4.0**power) for power in TOLERANCES]
+
+    def _climb_meshes(self):
+        if not self.variants.has_meshes:
+            return None
+        rungs = [Settings(mesh, self.stepping) for mesh in MESHES]
+        size = lambda run: 1 / run.elements
+        ladder = self._climb("mesh", rungs, size, LADDER_SHARE)
+        while len(ladder) > 2 and self._error(ladder, 0) < COARSE:
+            coarser = ladder.runs[0].settings.mesh / 2
+            if coarser < COARSEST_MESH or self.variants.count(coarser) == self.variants.count(2 * coarser):
+                break
+            run = self.runner.run(Settings(coarser, self.stepping))
+            if not run.is_finished:
+                break
+            ladder = Ladder("mesh", [size(run), *ladder.sizes], [run, *ladder.runs])
+        return ladder
+
+    # Other families.
+
+    def _climb_families(self):
+        own = self.own.stepping
+        if own.tolerance is None:
+            length = self._length()
+            rungs = [Stepping(own.scheme, own.step, share * length) for share in RELATIVE_TOLERANCES]
+            self._climb_family("tolerance", rungs)
+        else:
+            self._climb_family("step", self._steps(self._step_size("step")(self.step_ladder.runs[-1]), own.scheme))
+        for scheme in self.schemes:
+            base = self.variants.unit / 8 if own.tolerance else own.step
+            self._climb_family("step", self._steps(base, scheme))
+
+    def _climb_family(self, kind, rungs):
+        ladder = self._climb(kind, [Settings(self.mesh, rung) for rung in rungs], self._step_size(kind), FAMILY_SHARE)
+        if rungs:
+            self.ladders[rungs[0].family] = ladder
+
+    def _length(self):
+        """The largest range of a position, or else the longest cable [m]: what tolerances are shares of."""
+        scale = self.reference.scale
+        ranges = [scale[name] for name in self.reference.columns if history.kind_of(name) == "position"]
+        lengths = [self.variants.scene.number("cables", name, "length", default=0.0)
+                   for name in self.variants.scene.names("cables")]
+        return max(ranges, default=0.0) or max(lengths, default=0.0) or 1.0
