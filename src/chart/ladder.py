@@ -27,6 +27,12 @@ class Ladder:
     def __len__(self):
         return len(self.runs)
 
+    def has_size_of(self, rung, run):
+        """Whether a run of two sizes has that of a rung in this ladder."""
+        if self.kind == "mesh":
+            return rung.settings.mesh == run.settings.mesh
+        return rung.settings.stepping == run.settings.stepping
+
     def rung(self, place, column):
         return self.runs[place].columns[column]
 

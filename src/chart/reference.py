@@ -82,6 +82,16 @@ class Reference:
         return any(numpy.abs(ladder.step_to(place, column)).max() > UNCHANGED * self.scale[column]
                    for ladder in self.ladders for place in range(1, len(ladder)))
 
+    def check(self, run):
+        """Raises doubt by what a run differs from the truth and the errors of its mesh and of its step together."""
+        for name in self.columns:
+            shares = 0.0
+            for ladder in self.ladders:
+                same = next(rung for rung in ladder.runs if ladder.has_size_of(rung, run))
+                shares = shares + self.share(ladder, same)[name]
+            left = self.error(name, run.columns[name] - self.truth[name] - shares)[0]
+            self.doubt[name] = max(self.doubt[name], left)
+
     def _sum(self, column, mask):
         common = self.common.columns[column]
         return common + sum(ladder.limit(column, mask) - common for ladder in self.ladders)

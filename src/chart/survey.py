@@ -20,11 +20,13 @@ FINEST_STEP = -3                       # a power of 2 of the scene's step
 TOLERANCES = range(3, -4, -1)          # powers of 4 of the scene's tolerance
 RELATIVE_TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)      # of the largest range of a position
 
-# Shares of the budget: each of the two ladders that lead to the reference, and each other family's.
-LADDER_SHARE, FAMILY_SHARE = 0.35, 0.1
+# Shares of the budget: of each of the two ladders that lead to the reference, of the run that checks it, and of each
+# other family.
+LADDER_SHARE, CHECK_SHARE, FAMILY_SHARE = 0.35, 0.15, 0.1
 
-# Meshes are compared at a step that errs by no more than this; steps are made no finer where they err by this.
-STEP_OF_MESHES, SMALL = 0.01, 3e-5
+# Meshes are compared at a step that errs by no more than this, or by the second where that is too dear.  A ladder ends
+# where it errs by the third.
+GOOD_STEP, FAIR_STEP, SMALL = 1e-3, 0.01, 3e-5
 COARSE = 0.1
 
 
@@ -47,9 +49,22 @@ class Survey:
         common = self.runner.run(Settings(self.mesh, self.stepping))
         self._demand(common, main)
         self.reference = Reference(main, common, self.variants.is_static)
+        if len(main) == 2:
+            self._check()
         self.runner.run(self.own)
         if not self.variants.is_static:
             self._climb_families()
+
+    def _check(self):
+        """Runs a fine step with a fine mesh, to see whether their errors add up; the finest that is not too dear."""
+        pairs = [Settings(mesh.settings.mesh, step.settings.stepping)
+                 for mesh in self.mesh_ladder.runs for step in self.step_ladder.runs]
+        pairs = [pair for pair in pairs if pair.mesh != self.mesh and pair.stepping != self.stepping]
+        allowed = CHECK_SHARE * self.runner.budget
+        for pair in sorted(pairs, key=self.runner.expected_cpu, reverse=True):
+            if self.runner.expected_cpu(pair) <= allowed and self.runner.run(pair, allowed).is_finished:
+                self.reference.check(self.runner.run(pair))
+                return
 
     def _demand(self, common, ladders):
         """Refuses where there is nothing to tell the truth by."""
@@ -116,8 +131,17 @@ class Survey:
         self.ladders[self.own.stepping.family] = self.step_ladder = ladder
         if not len(ladder):
             return
-        near = (run for run in ladder.runs if self._distance(run, ladder.runs[-1]) <= STEP_OF_MESHES)
-        self.stepping = next(near).settings.stepping
+        self.stepping = self._step_of_meshes(ladder).settings.stepping
+
+    def _step_of_meshes(self, ladder):
+        """The longest step that hardly errs; a longer one where the finest mesh would be too dear with it."""
+        apart = [self._distance(run, ladder.runs[-1]) for run in ladder.runs]
+        good, fair = (next(place for place, value in enumerate(apart) if value <= limit) for limit in (GOOD_STEP, FAIR_STEP))
+        allowed = 0.6 * LADDER_SHARE * self.runner.budget
+        while good > fair and self.runner.expected_cpu(
+                Settings(MESHES[-1], ladder.runs[good].settings.stepping)) > allowed:
+            good -= 1
+        return ladder.runs[good]
 
     def _mesh_of_steps(self, rungs):
         """As fine as the scene's, where the ladder's middle is within the budget."""
