@@ -23,10 +23,6 @@ LEAST_RATE = 2e-8
 WORTH = 1.2
 
 
-# An accuracy is not judged by less than this share of the quantities.
-LEAST_TOLD = 0.5
-
-
 @dataclasses.dataclass
 class Choice:
     accuracy: float
@@ -67,7 +63,7 @@ class Chooser:
     def choose(self, accuracy):
         told = self.reference.told(accuracy)
         left_out = [name for name in self.reference.columns if name not in told]
-        if len(told) < LEAST_TOLD * len(self.reference.columns) or not told:
+        if not self.reference.knows(accuracy):
             return Choice(accuracy, None, left_out=left_out)
         best = None
         for family in self._families():

@@ -14,7 +14,7 @@ class Findings:
         self.given, self.survey, self.chooser, self.choices = given, survey, chooser, choices
         self.reference, self.runner, self.variants = survey.reference, survey.runner, survey.variants
         self.own = self.runner.all[survey.own]
-        self.pictured = next((accuracy for accuracy in PICTURED if self.reference.told(accuracy)), PICTURED[-1])
+        self.pictured = next((accuracy for accuracy in PICTURED if self.reference.knows(accuracy)), PICTURED[-1])
         self.told = self.reference.told(self.pictured)
 
     def choice(self, accuracy):

@@ -20,6 +20,12 @@ def note(text):
     print(f"cablenet: note: {text}", file=sys.stderr)
 
 
+def listed(names, most=6):
+    """Names, but not too many."""
+    names = list(names)
+    return ", ".join(names[:most]) + (f" and {len(names) - most} more" if len(names) > most else "")
+
+
 def multiple(factor):
     """A factor in words: x 2, / 4."""
     return f"x {factor}" if factor >= 1 else f"/ {1 / factor}"

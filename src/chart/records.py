@@ -60,7 +60,8 @@ def write(findings):
     choices = [{"accuracy": choice.accuracy, "error": choice.error, "worst": choice.column, "left_out": choice.left_out,
                 "settings": run_record(findings, choice.run) if choice.run else None} for choice in findings.choices]
     content = {"scene": str(findings.given.scene), "cpu_s": findings.runner.spent, "budget_s": findings.runner.budget,
-               "orders": findings.reference.orders(), "known_to": findings.doubt, "predictable_until_s": findings.reference.chaos,
+               "orders": findings.reference.orders(), "known_to": findings.doubt,
+               "predictable_until_s": findings.reference.chaos,
                "yours": run_record(findings, findings.own), "cheapest": choices, "notes": notes(findings),
                "columns": column_records(findings.reference), "runs": [record for _, record in records]}
     text = yaml.safe_dump(plain(content), sort_keys=False, allow_unicode=True, width=120)

@@ -14,8 +14,9 @@ from ladder import rms
 # A history is looked at in so many windows of time.
 WINDOWS = 20
 
-# In a window that two finest runs differ by more than this and do not come nearer, a single motion cannot be told.
-UNPREDICTABLE = 0.1
+# Where the two finest runs differ by more than this, and do not come nearer to each other, a single motion cannot be told;
+# by the second, where that is a jump by this factor from what they differed by before.  So it is in most windows from then.
+UNPREDICTABLE, LOST, JUMP, MOST = 0.1, 0.02, 5.0, 0.7
 
 # A shape that is drawn, and not in equilibrium with other elements, settles: a start is left out from which differences
 # fall to this share, or to this share of the range.
@@ -27,8 +28,11 @@ LEAST_SHARE = 0.3
 # A column whose reference is known to less than this is not converged.
 MOST_DOUBT = 0.1
 
+# An accuracy is not judged by less than this share of the columns.
+LEAST_TOLD = 0.5
+
 # Where one of these cannot be predicted any more, the whole motion is chaotic.
-MOTIONS = ("position", "attitude")
+MOTIONS = ("position", "attitude", "velocity", "angular velocity")
 
 # What no ladder changes by more than this is what the scene prescribes.
 UNCHANGED = 1e-9
@@ -53,6 +57,17 @@ def settling(levels):
     if not rough.size or peak > WINDOWS // 2 or rough[-1] + 1 > (1 - LEAST_SHARE) * WINDOWS:
         return 0
     return int(rough[-1]) + 1
+
+
+def prediction(first, levels, stays):
+    """The first window from `first` on that cannot be told any more; WINDOWS where there is none."""
+    for place in range(first, WINDOWS):
+        before = levels[first:place]
+        limit = LOST if before.size and levels[place] > JUMP * numpy.median(before) else UNPREDICTABLE
+        bad = stays & (levels > limit)
+        if bad[place] and numpy.mean(bad[place:]) >= MOST:
+            return place
+    return WINDOWS
 
 
 class Reference:
@@ -116,9 +131,7 @@ class Reference:
         edges, levels = self._levels(column, 0)
         stays = levels > 0.6 * self._levels(column, 1)[1]
         first = settling(numpy.where(stays, levels, 0.0))
-        bad = stays & (levels > UNPREDICTABLE)
-        last = next((k for k in range(first, WINDOWS) if bad[k] and numpy.mean(bad[k:]) >= 0.7), WINDOWS)
-        return Judged(edges[first], edges[last])
+        return Judged(edges[first], edges[prediction(first, levels, stays)])
 
     def can_tell(self, column, accuracy):
         """Whether an error that is measured as the accuracy is one of twice of it at most."""
@@ -127,6 +140,10 @@ class Reference:
     def told(self, accuracy):
         """The columns by which an accuracy is judged."""
         return [name for name in self.columns if self.can_tell(name, accuracy)]
+
+    def knows(self, accuracy):
+        """Whether enough columns tell of an accuracy for it to be judged."""
+        return len(self.told(accuracy)) >= max(1, LEAST_TOLD * len(self.columns))
 
     def error(self, column, values):
         """(rms, largest) of a series of errors, by the scale."""

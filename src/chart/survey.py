@@ -136,7 +136,8 @@ class Survey:
     def _step_of_meshes(self, ladder):
         """The longest step that hardly errs; a longer one where the finest mesh would be too dear with it."""
         apart = [self._distance(run, ladder.runs[-1]) for run in ladder.runs]
-        good, fair = (next(place for place, value in enumerate(apart) if value <= limit) for limit in (GOOD_STEP, FAIR_STEP))
+        good = next(place for place, value in enumerate(apart) if value <= GOOD_STEP)
+        fair = next(place for place, value in enumerate(apart) if value <= FAIR_STEP)
         allowed = 0.6 * LADDER_SHARE * self.runner.budget
         while good > fair and self.runner.expected_cpu(
                 Settings(MESHES[-1], ladder.runs[good].settings.stepping)) > allowed:

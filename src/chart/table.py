@@ -1,6 +1,6 @@
 """What a chart prints: the table of the cheapest settings, where the scene stands, and what a reader has to know."""
 from findings import USUAL
-from messages import multiple, percent, seconds, stepping_text
+from messages import listed, multiple, percent, seconds, stepping_text
 from runs import FAILS, TOO_DEAR
 
 
@@ -77,11 +77,11 @@ def chaos_lines(findings):
     reference = findings.reference
     end, chaos = reference.times[-1], reference.chaos
     if chaos < end:
-        yield (f"the motion is chaotic: single motions can be predicted until t = {chaos:.4g} s, by which the table goes. "
-               f"After it only statistics tell: {statistics_text(reference, reference.columns)}")
+        yield (f"the motion is chaotic: single motions can be predicted until t = {chaos:.4g} s, by which the table "
+               f"goes. After it only statistics tell: {statistics_text(reference, reference.columns)}")
     early = {name: judged.end for name, judged in reference.judged.items() if judged.end < chaos}
     if early:
-        until = ", ".join(f"{name} after t = {time:.4g} s" for name, time in early.items())
+        until = listed(f"{name} after t = {time:.4g} s" for name, time in early.items())
         yield (f"finer runs do not come nearer to each other, and only statistics tell, of {until}: "
                f"{statistics_text(reference, early)}")
 
@@ -99,15 +99,16 @@ def left_out_lines(findings):
     late = [f"{name} from t = {judged.start:.4g} s" for name, judged in reference.judged.items()
             if judged.start > reference.times[0] and not judged.is_short]
     if late:
-        yield (f"the start is not converged, and is left out: {', '.join(late)}. A drawn shape that is not in "
-               "equilibrium settles otherwise with other elements or steps; `initial: static` may help")
+        advice = "" if findings.variants.starts_static else "; `initial: static` may help"
+        yield (f"the start is not converged, and is left out: {listed(late)}. What moves when a run begins settles "
+               f"otherwise with other elements or steps{advice}")
     unknown = [name for name in reference.columns if name not in reference.told(0.1)]
     if unknown:
-        yield f"not converged, and left out everywhere: {', '.join(unknown)}"
+        yield f"not converged, and left out everywhere: {listed(unknown)}"
     for choice in findings.choices:
         left = [name for name in choice.left_out if name not in unknown]
         if choice.run is not None and left:
-            yield f"{percent(choice.accuracy)} is judged without {', '.join(left)}"
+            yield f"{percent(choice.accuracy)} is judged without {listed(left)}"
 
 
 def scene_lines(findings):

@@ -87,6 +87,7 @@ class Variants:
         self.scene = scene
         self.elements = scene.elements()
         self.is_static = scene.find("time") is None
+        self.starts_static = scene.value("initial", default="rest") == "static"
         self.own_scheme = scene.value("time", "scheme", default="")
         self.has_history = bool(scene.value("output", "history"))
         self.probes = [] if self.has_history else probes(scene)
