@@ -2,7 +2,6 @@
 
 It needs numpy, PyYAML and matplotlib.
 """
-import signal
 import sys
 
 import messages
@@ -10,7 +9,7 @@ import messages
 
 def main():
     program, words = sys.argv[1], sys.argv[2:]
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    messages.Signals.catch()
     try:
         from command_line import parse
         given = parse(words)

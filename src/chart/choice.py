@@ -14,7 +14,7 @@ from variants import Settings
 TRIALS, HOPE = 4, 1.3
 
 # What takes less is too short to be measured well, and is told by the fit [s].
-SHORTEST = 0.02
+SHORTEST = 0.05
 
 # No machine takes less for an element in an iteration [s], and clocks of CPU time may show nothing for a short run.
 LEAST_RATE = 2e-8
@@ -37,13 +37,13 @@ class Chooser:
     def __init__(self, survey):
         self.survey, self.runner, self.reference = survey, survey.runner, survey.reference
 
-    def fitted_cost(self, family, newton, elements):
-        """Of so many iterations with so many elements [s]; the fit is to relative errors."""
-        runs = [run for run in self._finished(family) if run.newton] or self.runner.finished
+    def fitted_cost(self, newton, elements):
+        """Of so many iterations with so many elements [s]; the fit is to relative errors of all families."""
+        runs = [run for run in self.runner.finished if run.newton]
         # A run that is hardly measured counts little.
-        weight = numpy.array([1 / (run.cost + 0.2 * SHORTEST) for run in runs])
+        weight = numpy.array([1 / (run.first_cost + 0.2 * SHORTEST) for run in runs])
         counts = numpy.array([[run.newton, run.newton * run.elements] for run in runs], float)
-        cost = numpy.array([run.cost for run in runs])
+        cost = numpy.array([run.first_cost for run in runs])
         (fixed, growing), *_ = numpy.linalg.lstsq(counts * weight[:, None], cost * weight, rcond=None)
         if fixed < 0 or growing < LEAST_RATE:
             fixed, growing = 0.0, max(LEAST_RATE, float(numpy.median(cost / counts[:, 1])))
@@ -51,8 +51,15 @@ class Chooser:
 
     def cost(self, run):
         """CPU seconds of statics and steps, as measured, or fitted where they are too short."""
-        fitted = self.fitted_cost(family_of(run.settings), run.newton, run.elements)
-        return run.cost if max(run.cost, fitted) > SHORTEST else fitted
+        return self._cost(run, run.cost)
+
+    def _cost(self, run, measured):
+        fitted = self.fitted_cost(run.newton, run.elements)
+        return measured if max(measured, fitted) > SHORTEST else fitted
+
+    def rank(self, run):
+        """The cost by which runs are chosen."""
+        return self._cost(run, run.first_cost)
 
     def _finished(self, family):
         return [run for run in self.runner.finished if family_of(run.settings) == family]
@@ -81,15 +88,15 @@ class Chooser:
         trials = TRIALS
         is_wanted = family == self._families()[0] or family[0] in self.survey.schemes
         for cost, settings in self._guesses(family, accuracy):
-            if trials == 0 or (not is_wanted and best is not None and cost > self.cost(best) / WORTH):
+            if trials == 0 or (not is_wanted and best is not None and cost > self.rank(best) / WORTH):
                 break
             trials -= settings not in self.runner.all
             run = self.runner.run(settings)
             if run.status == TOO_DEAR or (run.is_finished and self.measured(run, accuracy)[0] <= accuracy):
                 break
         reach = [run for run in self._finished(family) if self.measured(run, accuracy)[0] <= accuracy]
-        found = min(reach, key=self.cost, default=best)
-        return found if best is None or self.cost(found) * WORTH < self.cost(best) else best
+        found = min(reach, key=self.rank, default=best)
+        return found if best is None or self.rank(found) * WORTH < self.rank(best) else best
 
     def _guesses(self, family, accuracy):
         """(cost, settings) of what may reach the accuracy, cheapest first."""
@@ -97,7 +104,7 @@ class Chooser:
         step_runs, mesh_runs = ([None] if ladder is None else ladder.runs for ladder in (steps, meshes))
         step_shares = [self._share(self.survey.step_ladder, run) for run in step_runs]
         mesh_shares = [self._share(meshes, run) for run in mesh_runs]
-        found = [(self._guessed_cost(family, step_run, mesh_run), self._settings(step_run, mesh_run))
+        found = [(self._guessed_cost(step_run, mesh_run), self._settings(step_run, mesh_run))
                  for step_run, step_share in zip(step_runs, step_shares)
                  for mesh_run, mesh_share in zip(mesh_runs, mesh_shares)
                  if self._guess([step_share, mesh_share], accuracy) <= HOPE * accuracy]
@@ -116,8 +123,8 @@ class Chooser:
         mesh = mesh_run.settings.mesh if mesh_run else self.survey.mesh
         return Settings(mesh, step_run.settings.stepping if step_run else None)
 
-    def _guessed_cost(self, family, step_run, mesh_run):
-        return self.fitted_cost(family, (step_run or mesh_run).newton, (mesh_run or step_run).elements)
+    def _guessed_cost(self, step_run, mesh_run):
+        return self.fitted_cost((step_run or mesh_run).newton, (mesh_run or step_run).elements)
 
 
 def family_of(settings):

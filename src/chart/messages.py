@@ -1,4 +1,5 @@
 """What the chart says, and how it ends: the program's words and exit statuses."""
+import signal
 import sys
 
 WRONG_INPUT, NO_SOLUTION, NO_OUTPUT, STOPPED = 2, 3, 4, 5
@@ -46,6 +47,26 @@ def stepping_text(stepping):
     if stepping.tolerance is not None:
         return f"adaptive, tolerance {stepping.tolerance:.3g} m"
     return f"step {stepping.step:.4g} s"
+
+
+class Signals:
+    """A signal interrupts what is being done.  Libraries may swallow that, so that it is also remembered."""
+    has_come = False
+
+    @classmethod
+    def catch(cls):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, cls._stop)
+
+    @classmethod
+    def _stop(cls, *_):
+        cls.has_come = True
+        raise KeyboardInterrupt
+
+    @classmethod
+    def obey(cls):
+        if cls.has_come:
+            raise KeyboardInterrupt
 
 
 class Progress:

@@ -3,7 +3,6 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
-import numpy
 from matplotlib import ticker
 
 from choice import family_of
@@ -13,6 +12,7 @@ from messages import percent, seconds, stepping_text
 LOOKS = (("#0072B2", "o"), ("#D55E00", "s"), ("#009E73", "^"), ("#CC79A7", "D"), ("#E69F00", "v"), ("#56B4E9", "P"))
 GREY = "#666666"
 LEAST_DRAWN = 1e-7
+MOST_TICKS = 6
 
 
 def front(points):
@@ -45,12 +45,16 @@ def place_axis(axes, places):
     axes.xaxis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:.3g}"))
     axes.xaxis.set_minor_formatter(ticker.NullFormatter())
     if max(places) < 100 * min(places):
-        axes.xaxis.set_major_locator(ticker.FixedLocator(sorted(set(places))))
+        shown = sorted(set(places), reverse=True)
+        axes.xaxis.set_major_locator(ticker.FixedLocator(shown[::1 + len(shown) // MOST_TICKS]))
         axes.xaxis.set_minor_locator(ticker.NullLocator())
 
 
 def draw_costs(axes, findings):
-    axes.set_title("Accuracy and its cost", loc="left")
+    chaos = findings.reference.chaos
+    is_chaotic = chaos < findings.reference.times[-1]
+    until = f" until t = {chaos:.4g} s, beyond which the motion is chaotic" if is_chaotic else ""
+    axes.set_title(f"Accuracy and its cost{until}", loc="left")
     if not findings.told:
         return say(axes, "no quantity is known to 10 %\nby these runs")
     for family, (colour, marker) in looks(findings).items():
@@ -87,10 +91,11 @@ def mark_choices(axes, findings):
         if choice.run is not None:
             axes.axhline(choice.accuracy, color=GREY, linewidth=0.8, linestyle=":", zorder=0)
             marks.setdefault(choice.run.settings, (choice.run, []))[1].append(percent(choice.accuracy))
-    for run, accuracies in marks.values():
-        place = (findings.chooser.cost(run), max(findings.error(run)[0], LEAST_DRAWN))
+    for place, (run, accuracies) in enumerate(marks.values()):
+        offset = (9, 5) if place % 2 == 0 else (9, -12)
+        point = (findings.chooser.cost(run), max(findings.error(run)[0], LEAST_DRAWN))
         words = f"{', '.join(accuracies)}: {settings_words(run)}"
-        axes.annotate(words, place, textcoords="offset points", xytext=(9, 5), fontsize=8,
+        axes.annotate(words, point, textcoords="offset points", xytext=offset, fontsize=8,
                       bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.5})
 
 
@@ -143,11 +148,16 @@ def draw_ladder(axes, findings, main, ladder, places, colour, marker, label):
     percent_axis(axes.yaxis)
     if ladder is main:
         place_axis(axes, places)
-        x, y = numpy.array([place for place, _ in drawn]), drawn[-1][1]
-        power = -2 if main is findings.survey.mesh_ladder else 2
-        axes.plot(x, y * (x / x[-1]) ** power, "--", color=GREY, linewidth=1, zorder=0)
-        axes.annotate("order 2", (x[0], y * (x[0] / x[-1]) ** power), fontsize=8, color=GREY, xytext=(3, 3),
-                      textcoords="offset points")
+        draw_slope(axes, drawn, -2 if main is findings.survey.mesh_ladder else 2)
+
+
+def draw_slope(axes, points, power):
+    """The slope of the second order, from the finest point on, as high as the points are."""
+    (x, y), top = points[-1], 2 * max(error for _, error in points)
+    end = points[0][0] if y * (points[0][0] / x) ** power <= top else x * (top / y) ** (1 / power)
+    axes.plot([x, end], [y, y * (end / x) ** power], "--", color=GREY, linewidth=1, zorder=0)
+    axes.annotate("order 2", (end, y * (end / x) ** power), fontsize=8, color=GREY, xytext=(3, 3),
+                  textcoords="offset points")
 
 
 def mark_fails(axes, findings, belongs, place):

@@ -14,8 +14,9 @@ from ladder import rms
 # A history is looked at in so many windows of time.
 WINDOWS = 20
 
-# Where the two finest runs differ by more than this, and do not come nearer to each other, a single motion cannot be told;
-# by the second, where that is a jump by this factor from what they differed by before.  So it is in most windows from then.
+# Where the two finest runs differ by more than this, and do not come nearer to each other, a single motion cannot be
+# told; by the second, where that is a jump by this factor from what they differed by before.  So it is in most windows
+# from then on.
 UNPREDICTABLE, LOST, JUMP, MOST = 0.1, 0.02, 5.0, 0.7
 
 # A shape that is drawn, and not in equilibrium with other elements, settles: a start is left out from which differences

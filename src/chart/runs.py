@@ -43,6 +43,11 @@ class Run:
     def is_finished(self):
         return self.status == FINISHED
 
+    # What is decided goes by first measurements: a chart that goes on decides alike, whatever was repeated at its end.
+    @property
+    def first_cost(self):
+        return self.solve_cpu[0]
+
     @property
     def cost(self):
         """The least time that was measured [s]; less than half of the median is an error of the machine's clock."""
@@ -78,7 +83,7 @@ class Runner:
     def expected_cpu(self, settings):
         """What a run will take [s]: the time of the run with the next less work, and more by the ratio of the work.
         Nothing is known before the first run."""
-        known = sorted((self._work(run.settings), min(run.process_cpu)) for run in self.finished)
+        known = sorted((self._work(run.settings), run.process_cpu[0]) for run in self.finished)
         if not known:
             return 0.0
         work, start = self._work(settings), min(cpu for _, cpu in known)
@@ -122,6 +127,7 @@ class Runner:
             self._start(run, self.variants.run_text(run.settings))
 
     def _start(self, run, text):
+        messages.Signals.obey()
         self.progress.show(self.spent, self.budget, describe(run.settings))
         shutil.rmtree(run.folder, ignore_errors=not run.folder.exists())
         run.folder.mkdir(parents=True)

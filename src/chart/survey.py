@@ -72,11 +72,14 @@ class Survey:
             return
         done, finished = list(self.runner.all.values()), len(self.runner.finished)
         if any(run.status == TOO_DEAR for run in done):
+            if not finished:
+                raise Refusal(f"a budget of {self.runner.budget:.4g} s is too small: the cheapest run takes more, and a "
+                              f"chart some 20 times of that; give it --budget {20 * self.runner.budget:.0f}")
             raise Refusal(f"a budget of {self.runner.budget:.4g} s is too small: {seconds(self.runner.spent)} of CPU "
                           f"went into {finished} runs, which are kept, and a chart needs three in each ladder; "
                           f"give it --budget {self._enough():.0f}")
         why = next((f": {run.message}" for run in done if run.message), "")
-        raise Refusal(f"of {len(done)} runs {finished} got through, too few for a chart{why}", NO_SOLUTION)
+        raise Refusal(f"{finished} of {len(done)} runs got through, too few for a chart{why}", NO_SOLUTION)
 
     def _enough(self):
         """A budget that would do [s]."""
@@ -90,9 +93,9 @@ class Survey:
         allowance = share * self.runner.budget
         runs, spent = [], 0.0
         for rung in settings:
-            before = self.runner.spent
+            is_new = rung not in self.runner.all
             run = self.runner.run(rung, allowance - spent)
-            spent += self.runner.spent - before
+            spent += run.process_cpu[0] if is_new and run.process_cpu else 0.0
             if run.status == TOO_DEAR:
                 break
             if run.is_finished and (not runs or size(run) < size(runs[-1])):

@@ -130,6 +130,19 @@ def second_chart(bench):
            "a run that is not complete is done again, and no other")
 
 
+def signals(bench):
+    """A chart that is ended keeps what it has, and leaves no run behind."""
+    chart = subprocess.Popen([bench.program, "chart", "scene.yaml", "-o", "ended"], cwd=bench.folder, stderr=subprocess.PIPE, text=True,
+                             env=ENVIRONMENT)
+    while "run 4," not in chart.stderr.readline():
+        pass
+    chart.terminate()
+    said = chart.communicate(timeout=60)[1]
+    expect(chart.returncode == 5 and said.count("cablenet: error: stopped; the finished runs are kept") == 1, "a chart that is ended says so")
+    runs = list((bench.folder / "ended" / "runs").iterdir())
+    expect(len([run for run in runs if (run / "cost.yaml").exists()]) == 3, "its three finished runs are kept")
+
+
 def small_budgets(bench):
     done = bench("chart", "scene.yaml", "-o", "tiny", "--budget", "0.3")
     expect(done.returncode == 2 and done.stderr.count("cablenet: error: a budget of 0.3 s is too small") == 1
@@ -173,7 +186,7 @@ def main():
     given = arguments(__doc__)
     bench = Bench(given.program, given.scratch)
     os.environ.setdefault("MPLCONFIGDIR", str(given.scratch / "matplotlib"))
-    for part in (first_chart, choices_hold, written_scene, second_chart, small_budgets, wrong_words):
+    for part in (first_chart, choices_hold, written_scene, second_chart, signals, small_budgets, wrong_words):
         part(bench)
     print(f"{len(failures)} failures")
     return 1 if failures else 0
