@@ -70,9 +70,9 @@ def make_chart(program, given):
         try:
             survey = Survey(runner, variants, given.schemes)
             survey.explore()
-            chooser = Chooser(survey)
             wanted = sorted({*ACCURACIES, *filter(None, [given.accuracy])}, reverse=True)
-            choices = [chooser.choose(accuracy) for accuracy in wanted]
+            chooser = Chooser(survey, wanted)
+            choices = chooser.choose_all()
             for run in [choice.run for choice in choices if choice.run] + [runner.all[survey.own]]:
                 runner.repeat(run)
         finally:

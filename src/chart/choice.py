@@ -34,7 +34,8 @@ class Choice:
 
 
 class Chooser:
-    def __init__(self, survey):
+    def __init__(self, survey, accuracies):
+        self.accuracies = accuracies
         self.survey, self.runner, self.reference = survey, survey.runner, survey.reference
 
     def fitted_cost(self, newton, elements):
@@ -67,14 +68,27 @@ class Chooser:
     def measured(self, run, accuracy):
         return self.reference.worst(self.reference.errors(run), accuracy)
 
-    def choose(self, accuracy):
+    def _levels(self, accuracy):
+        """The accuracies that a run must have: more quantities may tell of a lower one, and it must have that, too."""
+        return [level for level in self.accuracies if level >= accuracy and self.reference.knows(level)]
+
+    def _reaches(self, run, accuracy):
+        return all(self.measured(run, level)[0] <= level for level in self._levels(accuracy))
+
+    def choose_all(self):
+        """The choices for all accuracies; what was run for one of them may be cheaper for another."""
+        for accuracy in self.accuracies:
+            self._choose(accuracy, TRIALS)
+        return [self._choose(accuracy, 0) for accuracy in self.accuracies]
+
+    def _choose(self, accuracy, trials):
         told = self.reference.told(accuracy)
         left_out = [name for name in self.reference.columns if name not in told]
         if not self.reference.knows(accuracy):
             return Choice(accuracy, None, left_out=left_out)
         best = None
         for family in self._families():
-            best = self._try(family, accuracy, best)
+            best = self._try(family, accuracy, best, trials)
         if best is None:
             nearest = min(self.runner.finished, key=lambda run: self.measured(run, accuracy)[0])
             return Choice(accuracy, None, *self.measured(nearest, accuracy), left_out, nearest)
@@ -83,18 +97,17 @@ class Chooser:
     def _families(self):
         return list(self.survey.ladders) or [None]
 
-    def _try(self, family, accuracy, best):
+    def _try(self, family, accuracy, best, trials):
         """Runs guesses, from the cheapest on, until one reaches the accuracy.  @returns the cheapest that does"""
-        trials = TRIALS
         is_wanted = family == self._families()[0] or family[0] in self.survey.schemes
         for cost, settings in self._guesses(family, accuracy):
             if trials == 0 or (not is_wanted and best is not None and cost > self.rank(best) / WORTH):
                 break
             trials -= settings not in self.runner.all
             run = self.runner.run(settings)
-            if run.status == TOO_DEAR or (run.is_finished and self.measured(run, accuracy)[0] <= accuracy):
+            if run.status == TOO_DEAR or (run.is_finished and self._reaches(run, accuracy)):
                 break
-        reach = [run for run in self._finished(family) if self.measured(run, accuracy)[0] <= accuracy]
+        reach = [run for run in self._finished(family) if self._reaches(run, accuracy)]
         found = min(reach, key=self.rank, default=best)
         return found if best is None or self.rank(found) * WORTH < self.rank(best) else best
 
@@ -104,10 +117,11 @@ class Chooser:
         step_runs, mesh_runs = ([None] if ladder is None else ladder.runs for ladder in (steps, meshes))
         step_shares = [self._share(self.survey.step_ladder, run) for run in step_runs]
         mesh_shares = [self._share(meshes, run) for run in mesh_runs]
+        levels = self._levels(accuracy)
         found = [(self._guessed_cost(step_run, mesh_run), self._settings(step_run, mesh_run))
                  for step_run, step_share in zip(step_runs, step_shares)
                  for mesh_run, mesh_share in zip(mesh_runs, mesh_shares)
-                 if self._guess([step_share, mesh_share], accuracy) <= HOPE * accuracy]
+                 if all(self._guess([step_share, mesh_share], level) <= HOPE * level for level in levels)]
         return sorted(found, key=lambda pair: pair[0])
 
     def _share(self, ladder, run):

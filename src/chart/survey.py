@@ -73,8 +73,8 @@ class Survey:
         done, finished = list(self.runner.all.values()), len(self.runner.finished)
         if any(run.status == TOO_DEAR for run in done):
             if not finished:
-                raise Refusal(f"a budget of {self.runner.budget:.4g} s is too small: the cheapest run takes more, and a "
-                              f"chart some 20 times of that; give it --budget {20 * self.runner.budget:.0f}")
+                raise Refusal(f"a budget of {self.runner.budget:.4g} s is too small: the cheapest run takes more, and "
+                              f"a chart some 20 times of that; give it --budget {20 * self.runner.budget:.0f}")
             raise Refusal(f"a budget of {self.runner.budget:.4g} s is too small: {seconds(self.runner.spent)} of CPU "
                           f"went into {finished} runs, which are kept, and a chart needs three in each ladder; "
                           f"give it --budget {self._enough():.0f}")

@@ -140,7 +140,7 @@ def signals(bench):
     said = chart.communicate(timeout=60)[1]
     expect(chart.returncode == 5 and said.count("cablenet: error: stopped; the finished runs are kept") == 1, "a chart that is ended says so")
     runs = list((bench.folder / "ended" / "runs").iterdir())
-    expect(len([run for run in runs if (run / "cost.yaml").exists()]) == 3, "its three finished runs are kept")
+    expect(len([run for run in runs if (run / "cost.yaml").exists()]) >= 3, "its finished runs are kept, three at least")
 
 
 def small_budgets(bench):
