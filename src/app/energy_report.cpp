@@ -4,12 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace cablenet::app {
 namespace {
 
 /// What the step's formulas may take of the energy that moves before it is worth a note.
 constexpr double most_dissipated = 0.1;
+
+/// What has moved is known by so many instants.
+constexpr long least_instants = 10;
 
 bool is_damped(const scene::CableType& type) {
   return type.axial_damping > 0 || type.rayleigh_mass > 0 || type.rayleigh_stiffness > 0;
@@ -32,18 +36,20 @@ EnergyReport::EnergyReport(const system::EnergySummary& of_run, const scene::Sce
       has_bed(scene.bed.has_value()) {}
 
 std::string describe(const EnergyReport& report) {
-  const auto& [now, moved, gained, imbalance] = report.energy;
+  const system::EnergySummary& energy = report.energy;
+  const auto& [now, moved] = std::tie(energy.now, energy.moved);
   std::string text = fmt::format("energy: {:.3g} J moved; ", moved);
   if (report.is_damped) text += taken("damping", now.damping, moved) + ", ";
   text += taken("the step's formulas", now.dissipated, moved);
   if (report.is_wet) text += ", " + taken("water", now.water, moved);
   if (report.has_bed) text += ", " + taken("the bed", now.bed, moved);
-  return text + fmt::format("; the balance closes to {:.2g}", share(imbalance, moved));
+  if (energy.is_accounted) text += fmt::format("; the balance closes to {:.2g}", share(energy.imbalance, moved));
+  return text;
 }
 
 std::string note_of_dissipation(const EnergyReport& report) {
   const double taken = share(report.energy.now.dissipated, report.energy.moved);
-  if (taken <= most_dissipated) return {};
+  if (taken <= most_dissipated || report.energy.instants < least_instants) return {};
   return fmt::format(
       "the step's formulas took {:.2g} % of the energy that moved: where that was motion, it is gone; shorter steps "
       "take less, and so does a larger time.spectral_radius",
@@ -51,7 +57,7 @@ std::string note_of_dissipation(const EnergyReport& report) {
 }
 
 std::string describe_gain(const EnergyReport& report) {
-  const auto& [now, moved, gained, imbalance] = report.energy;
+  const auto& [gained, moved] = std::tie(report.energy.gained, report.energy.moved);
   return fmt::format("the step's formulas have brought in {:.4g} J from nowhere, {:.2g} % of the {:.4g} J that moved",
                      gained, 100 * share(gained, moved), moved);
 }

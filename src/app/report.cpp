@@ -67,18 +67,19 @@ void emit_pretensions(YAML::Emitter& yaml, const std::vector<Report::Pretension>
 }
 
 void emit_energy(YAML::Emitter& yaml, const EnergyReport& report) {
-  const auto& [now, moved, gained, imbalance] = report.energy;
+  const system::EnergySummary& energy = report.energy;
+  const system::Energies& now = energy.now;
   const auto put = [&](const char* key, double value) {
     yaml << YAML::Key << key << YAML::Value << fmt::format("{:.6g}", value);
   };
   yaml << YAML::Key << "energy" << YAML::Value << YAML::BeginMap;
-  put("moved_J", moved);
+  put("moved_J", energy.moved);
   put("dissipated_J", now.dissipated);
   put("damping_J", now.damping);
   put("water_J", now.water);
   put("bed_J", now.bed);
-  put("gained_J", gained);
-  put("balance_over_moved", moved > 0 ? imbalance / moved : 0);
+  put("gained_J", energy.gained);
+  if (energy.is_accounted) put("balance_over_moved", energy.moved > 0 ? energy.imbalance / energy.moved : 0);
   yaml << YAML::EndMap;
 }
 

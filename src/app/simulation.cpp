@@ -141,9 +141,10 @@ private:
     report_.linear_solver = dynamics_->linear_solver();
     if (rank_ == 0) progress.finish(report_.reached, report_.counts.steps, report_.counts.newton);
     if (const system::EnergySummary* const energy = assembler_->energy_summary()) {
-      report_.energy.emplace(*energy, scene_);
-      if (rank_ == 0) fmt::print("{}\n", describe(*report_.energy));
-      add_note(report_, note_of_dissipation(*report_.energy));
+      const EnergyReport found(*energy, scene_);
+      if (scene_.output.energy || dynamics_->is_watched()) report_.energy = found;
+      if (rank_ == 0 && report_.energy) fmt::print("{}\n", describe(found));
+      add_note(report_, note_of_dissipation(found));
     }
     for (const std::string& text : tension_notes(scene_, network_, *assembler_)) add_note(report_, text);
     if (const auto steps = dynamics_->step_findings())
@@ -160,6 +161,7 @@ private:
     try {
       const system::LocalState& state =
           assembler_->observe(instant.t, instant.x, instant.v, instant.a, scene_.is_static);
+      assembler_->look_at_energy();
       const std::vector<double>& row = probes_->row(state);
       if (history_) history_->write(row);
       series_->write(frames_->collect(state, instant.step));

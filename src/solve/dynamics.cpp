@@ -7,6 +7,7 @@
 #include "cablenet/petsc/options.hpp"
 #include "cablenet/solve/energy_watch.hpp"
 #include "cablenet/solve/own_options.hpp"
+#include "cablenet/system/losses.hpp"
 
 namespace cablenet::solve {
 namespace {
@@ -28,7 +29,7 @@ Dynamics::Dynamics(system::Assembler& assembler, const scene::Time& time, const 
       is_watched_(settings.is_watched && may_gain_energy(time, stepper_.weights())) {
   most_gained_ = read_number(most_gained_option, assembler.communicator(), settings.prefix, most_gained_, 0,
                              std::numeric_limits<double>::infinity());
-  if (settings.keeps_accounts || is_watched_) assembler.keep_accounts();
+  follow_energy(settings);
   time_.step = stepper_.first_step();
   if (settings.takes_notes) take_notes();
   if (!time.tolerance || petsc::has_option("-ts_adapt_type", settings.prefix)) return;
@@ -37,6 +38,21 @@ Dynamics::Dynamics(system::Assembler& assembler, const scene::Time& time, const 
   control_.emplace(*time.tolerance, time_.step, longest, smallest_step * time_.step, stepper_.error_order());
   stepper_.control_errors([this](const auto& error, double dt) { return control_->accepts(error(), dt); },
                           StepControl::refused_scale);
+}
+
+/// Accounts are for who asks for them, and for the watch where water, bed or damping take energy, too.  Else looks do.
+/// What conserves energy is not looked at here, but where the state is observed anyway.
+void Dynamics::follow_energy(const Settings& settings) {
+  const bool is_simple = system::only_formulas_take_energy(assembler_.network(), assembler_.communicator());
+  if (settings.keeps_accounts || (is_watched_ && !is_simple)) return assembler_.keep_accounts();
+  if (!is_simple || !(is_watched_ || settings.takes_notes)) return;
+  assembler_.keep_looks();
+  looks_ = is_watched_ || damps(stepper_.weights());
+}
+
+void Dynamics::look_at_energy() {
+  assembler_.observe(schedule_.time(), stepper_.x(), stepper_.v(), stepper_.a());
+  assembler_.look_at_energy();
 }
 
 /// Who adapts steps is told their errors, or has means of his own to judge them.
@@ -57,6 +73,7 @@ void Dynamics::start(const Observers& observers) {
   newton_.solve_acceleration(time_.start, stepper_.x(), stepper_.v(), stepper_.a());
   stepper_.restart();
   is_started_ = true;
+  if (looks_) look_at_energy();
   observers.output(instant());
 }
 
@@ -80,11 +97,18 @@ Verdict Dynamics::run(const Observers& observers) {
   return verdict;
 }
 
+/// After a step.  Where looks are kept it looks now and then, and at a run's end.
+bool Dynamics::gains_energy() {
+  if (looks_ && !looks_at_energy(counts_.steps) && !schedule_.at_end()) return false;
+  if (looks_) look_at_energy();
+  if (!is_watched_) return false;
+  return solve::gains_energy(*assembler_.energy_summary(), newton_.energy_rounding(), most_gained_);
+}
+
 bool Dynamics::is_at_an_end(const Observers& observers) {
   const bool exhausted = last_step_ < smallest_step * time_.step;
   outside_body_ = assembler_.nearly_singular_body(stepper_.x());
-  has_gained_energy_ =
-      is_watched_ && gains_energy(*assembler_.energy_summary(), newton_.energy_rounding(), most_gained_);
+  has_gained_energy_ = gains_energy();
   if (schedule_.at_output() || exhausted || outside_body_ >= 0 || has_gained_energy_) observers.output(instant());
   if (has_gained_energy_) return true;
   if (outside_body_ >= 0 || !exhausted) return outside_body_ >= 0;

@@ -25,6 +25,8 @@ bool may_gain_energy(const scene::Time& time, const AlphaWeights& weights) {
   return time.scheme != scene::Scheme::energy_momentum || !is_same(weights, weights_of(time));
 }
 
+bool damps(const AlphaWeights& weights) { return weights.gamma > 0.5 + same; }
+
 /// Energies that are no numbers are a gain, too.
 bool gains_energy(const system::EnergySummary& energy, double rounding, double most) {
   return !(energy.gained <= std::max(most * energy.moved, most_roundings * rounding));

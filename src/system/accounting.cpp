@@ -78,7 +78,14 @@ void Assembler::keep_accounts() {
   parts_->accounts = std::make_unique<EnergyAccounts>(network_, communicator_, make_vector(), make_vector());
 }
 
+void Assembler::keep_looks() { parts_->looks = std::make_unique<EnergyLooks>(communicator_); }
+
+void Assembler::look_at_energy() {
+  if (parts_->looks) parts_->looks->add(energies());
+}
+
 const EnergySummary* Assembler::energy_summary() const {
+  if (parts_->looks) return &parts_->looks->summary();
   return parts_->accounts ? &parts_->accounts->summary() : nullptr;
 }
 

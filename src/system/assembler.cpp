@@ -237,6 +237,7 @@ void Assembler::archive(Archive& archive) {
   parts_->prescribed.archive(archive);
   for_each_term(parts_->terms, [&](auto& term) { term.archive(archive); });
   if (parts_->accounts) parts_->accounts->archive(archive);
+  if (parts_->looks) parts_->looks->archive(archive);
   if (parts_->tensions) parts_->tensions->archive(archive);
 }
 

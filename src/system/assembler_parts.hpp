@@ -49,7 +49,8 @@ struct Assembler::Parts {
   bool has_rates = false;
   StageVectors last_residual;
   std::unique_ptr<EnergyAccounts> accounts;   ///< where they are kept
-  std::unique_ptr<TensionRecord> tensions;    ///< likewise
+  std::unique_ptr<EnergyLooks> looks;         ///< where energies are looked at instead
+  std::unique_ptr<TensionRecord> tensions;    ///< where they are kept
 };
 
 }   // namespace cablenet::system

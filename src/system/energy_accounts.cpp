@@ -5,15 +5,12 @@
 #include <utility>
 
 #include "cablenet/bodies/body_in_water.hpp"
+#include "cablenet/system/losses.hpp"
 
 namespace cablenet::system {
 namespace {
 
 using Const3 = Eigen::Map<const Vector3>;
-
-bool is_damped(const elements::CableMaterial& material) {
-  return material.axial_damping > 0 || material.mass_damping > 0;
-}
 
 }   // namespace
 
@@ -27,7 +24,7 @@ EnergyAccounts::Undamped::Undamped(const partition::LocalNetwork& damped)
 
 EnergyAccounts::EnergyAccounts(const partition::LocalNetwork& network, MPI_Comm communicator, Vector scratch,
                                Vector resting)
-    : network_(network), communicator_(communicator), scratch_(std::move(scratch)), resting_(std::move(resting)) {
+    : network_(network), scratch_(std::move(scratch)), resting_(std::move(resting)), record_(communicator, true) {
   if (std::any_of(network.materials.begin(), network.materials.end(), is_damped))
     undamped_ = std::make_unique<Undamped>(network);
 }
@@ -45,7 +42,6 @@ void EnergyAccounts::open(const LocalState& start, const Energies& stored, doubl
   if (std::exchange(has_begun_, true)) return;
   taken_.start = stored.total() - prescribed_work;
   summarise(stored, prescribed_work);
-  first_ = summary_.now;
 }
 
 void EnergyAccounts::begin_step(Evaluation& evaluation) {
@@ -131,24 +127,10 @@ void EnergyAccounts::add_to(Energies& sum) const {
 }
 
 void EnergyAccounts::summarise(const Energies& stored, double prescribed_work) {
-  Energies& now = summary_.now;
-  now = stored;
+  Energies now = stored;
   now.work += prescribed_work;
   add_to(now);
-  const std::array members{&Energies::kinetic, &Energies::strain,     &Energies::gravity,
-                           &Energies::work,    &Energies::dissipated, &Energies::damping,
-                           &Energies::water,   &Energies::bed,        &Energies::start};
-  std::array<double, members.size()> sums{};
-  for (std::size_t i = 0; i < members.size(); ++i) sums[i] = now.*members[i];
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, communicator_);
-  for (std::size_t i = 0; i < members.size(); ++i) now.*members[i] = sums[i];
-  if (steps_ == 0) first_ = now;
-  highest_dissipated_ = std::max(highest_dissipated_, now.dissipated);
-  summary_.gained = highest_dissipated_ - now.dissipated;
-  summary_.imbalance = std::max(summary_.imbalance, std::abs(now.balance()));
-  summary_.moved = std::max({summary_.moved, now.kinetic, std::abs(now.strain - first_.strain),
-                             std::abs(now.gravity - first_.gravity), std::abs(now.work), std::abs(now.dissipated),
-                             std::abs(now.damping), std::abs(now.water), std::abs(now.bed)});
+  record_.add(now);
 }
 
 /// What is known of the step's start is found again, as a run that loads has to do it.
@@ -164,11 +146,7 @@ void EnergyAccounts::archive(Archive& archive) {
   archive.item("accounts.start", taken_.start);
   archive.item("accounts.power", std::span(power_));
   archive.item("accounts.last stage's time", previous_stage_time_);
-  archive.item("accounts.highest", highest_dissipated_);
-  archive.item("accounts.first strain", first_.strain);
-  archive.item("accounts.first gravity", first_.gravity);
-  archive.item("accounts.moved", summary_.moved);
-  archive.item("accounts.imbalance", summary_.imbalance);
+  record_.archive(archive);
 }
 
 }   // namespace cablenet::system

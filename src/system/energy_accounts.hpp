@@ -5,6 +5,7 @@
 
 #include "cable_term.hpp"
 #include "cablenet/system/assembler.hpp"
+#include "energy_record.hpp"
 #include "evaluation.hpp"
 
 namespace cablenet::system {
@@ -64,7 +65,7 @@ public:
   Vec scratch() const { return scratch_; }
   Vec resting() const { return resting_; }
   void add_to(Energies& sum) const;
-  const EnergySummary& summary() const { return summary_; }
+  const EnergySummary& summary() const { return record_.summary(); }
   void archive(Archive& archive);
 
 private:
@@ -80,7 +81,6 @@ private:
   void keep_start(const LocalState& state, const Energies& stored);
 
   const partition::LocalNetwork& network_;
-  MPI_Comm communicator_;
   Vector scratch_, resting_;
   std::unique_ptr<Undamped> undamped_;
   bool is_open_ = false, has_begun_ = false;
@@ -90,9 +90,7 @@ private:
   Energies taken_;                   ///< only its dissipated, damping, water, bed and start are used
   std::array<double, 3> power_{};    ///< of damping, water and bed at the last stage [W]
   double previous_stage_time_ = 0;   ///< [s]
-  double highest_dissipated_ = 0;    ///< on all ranks
-  Energies first_;                   ///< at the start, on all ranks
-  EnergySummary summary_;
+  EnergyRecord record_;
   long steps_ = 0;
 };
 

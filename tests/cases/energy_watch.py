@@ -66,6 +66,12 @@ def main():
     done = gone_on(given, unasked)
     expect("energy: " not in done.stdout, "what conserves is not watched where nobody asks")
     gone_on(given, EXAMPLES / "free_fall" / "scene.yaml")
+    # Who asks for no energy is watched, too.
+    for name in ("whip", "tension_only_array", "surface_line"):
+        unasked = given.scratch / f"{name}_unasked.yaml"
+        unasked.write_text((WATCHED / f"{name}.yaml").read_text().replace("  energy: true\n", ""))
+        ended(given, unasked, 1)
+    ended(given, given.scratch / "whip_unasked.yaml", 3)
     print(f"{len(failures)} failures")
     return 1 if failures else 0
 

@@ -130,6 +130,15 @@ def dissipation(given):
     [[percent]] = only(given, NOTED / "bungee.yaml", [took], ranks=(1, 2))
     near(float(percent), 57, 0.1, "percent of the energy at radius 0")
     only(given, NOTED / "bungee.yaml", [], "-ts_dt", "0.001", ranks=(1,))
+    # It is said to who does not ask for energies, too, but not where water takes some.
+    unasked = given.scratch / "unasked.yaml"
+    unasked.write_text((NOTED / "bungee.yaml").read_text().replace("energy: true", "energy: false"))
+    [[of_looks]] = only(given, unasked, [took], ranks=(1, 2))
+    near(float(of_looks), float(percent), 0.1, "percent of the energy by looks")
+    wet = given.scratch / "wet.yaml"
+    wet.write_text(unasked.read_text().replace("gravity: 9.81", "gravity: 9.81, fluid: {density: 1}").replace(
+        "tension_only", "diameter: 0.01, tension_only"))
+    only(given, wet, [], ranks=(1,))
 
 
 def rejected(given):

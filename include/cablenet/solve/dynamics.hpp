@@ -24,7 +24,7 @@ public:
     const char* prefix = nullptr;                        ///< of all options
     long most_steps = std::numeric_limits<int>::max();   ///< where -ts_max_steps is not given
     bool keeps_accounts = false;                         ///< of energy
-    bool is_watched = true;                              ///< where the scheme may gain energy; accounts are kept then
+    bool is_watched = true;                              ///< where the scheme may gain energy
     bool takes_notes = false;                            ///< of tensions (Assembler::tensions) and steps
   };
 
@@ -45,6 +45,8 @@ public:
   /// How well the steps so far have followed the motion.  Nothing where they are adaptive, or no notes are taken.
   std::optional<StepFindings> step_findings() const;
 
+  /// The scheme may gain energy, and the run ends where it does.
+  bool is_watched() const { return is_watched_; }
   /// The run ended as its scheme brought energy in from nowhere.
   bool has_gained_energy() const { return has_gained_energy_; }
 
@@ -57,6 +59,9 @@ public:
 
 private:
   void take_notes();
+  void follow_energy(const Settings& settings);
+  void look_at_energy();
+  bool gains_energy();
   void start(const Observers& observers);
   bool step(double dt);
   void accept(double t, const AlphaStepper::Outcome& outcome);
@@ -77,7 +82,8 @@ private:
   double last_step_ = 0;    ///< [s]
   int outside_body_ = -1;   ///< in Network::bodies, of one that the last step brought too near to a singular attitude
   std::string failure_;
-  bool is_watched_;   ///< The scheme may gain energy.
+  bool is_watched_;
+  bool looks_ = false;   ///< at energies, once in several steps
   bool has_gained_energy_ = false;
   double most_gained_ = 0.05;   ///< over what the run moves
 };

@@ -47,7 +47,7 @@ public:
   void begin_step(double t, Vec x, Vec v);
   /// r = M (a + beta v) + f_int - loads at the stage.  [N]
   /// With a request, also the tangent dr/dx shift.x + dr/dv shift.v + dr/da shift.a [N/m], unpublished.
-  /// @returns false on a rank where two neighbouring nodes coincide (or a value is not finite); r is then of no use.
+  /// @returns false on a rank where two neighbours coincide (or a value is not finite); r is then of no use.
   bool residual(const Stage& stage, Vec x, Vec v, Vec a, Vec r, const TangentRequest* request = nullptr);
   /// The tangent alone, unpublished.  It is cheaper where the last residual was at this x.
   /// @pre no two neighbours coincide
@@ -60,8 +60,7 @@ public:
   void begin(const Situation& situation, Vec x, Vec v);
   bool evaluate(const Situation& situation, Vec x, Vec v, Vec a, Vec r, const TangentRequest* request);
 
-  /// The mass matrix [kg], unpublished, and the force -r with no acceleration of the free nodes [N], both at (t, x, v):
-  /// M a = force.
+  /// The mass matrix [kg], unpublished, and the force -r without the free nodes' acceleration [N]: M a = force.
   void mass_matrix(double t, Vec x, Vec v, TangentMatrix& mass);
   void force(double t, Vec x, Vec v, Vec force);
 
@@ -72,9 +71,11 @@ public:
   Energies energies() const;
   /// This rank's part of the potential of the internal forces and of the bed in statics.  [J]  @pre observe
   double potential(const Situation& situation) const;
-  /// From the next step on, accounts say where energy goes (src/system/energy_accounts.hpp).  Not collective.
-  void keep_accounts();
-  /// Up to the last step's end; nullptr where no accounts are kept.  Not collective.
+  void keep_accounts();   ///< from the next step on (energy_accounts.hpp); not collective
+  /// look_at_energy() looks at the observed state from now on, and did nothing before.  @pre only_formulas_take_energy
+  void keep_looks();
+  void look_at_energy();
+  /// Up to the last step's end or look; nullptr where neither accounts nor looks are kept.  Not collective.
   const EnergySummary* energy_summary() const;
   /// From the next step on, the extremes of tension are kept.  Not collective.
   void keep_tensions();
@@ -89,8 +90,7 @@ public:
 
   /// Of the forces at an instant.  It observes the instant.
   ForceScales force_scales(double t, Vec x, Vec v);
-  /// An index into Network::bodies of one on any rank whose Euler angles are singular within a degree of pitch; -1:
-  /// none.
+  /// An index into Network::bodies of one, on any rank, within a degree of pitch from singular Euler angles; -1: none.
   int nearly_singular_body(Vec x) const;
   /// Scene number of the element that the last residual found without length on this rank; -1: none.  Not collective.
   int coincident_element() const { return coincident_; }

@@ -25,7 +25,9 @@ struct EnergySummary {
   Energies now;
   double moved = 0;       ///< the largest kinetic energy, or change of one other energy or account, since the start
   double gained = 0;      ///< by the step's formulas: how far `dissipated` has fallen from its largest value
-  double imbalance = 0;   ///< the largest |balance()| at the end of any step
+  double imbalance = 0;   ///< the largest |balance()| at the end of any step; zero by definition where not accounted
+  long instants = 0;      ///< at which energies were looked at
+  bool is_accounted = true;   ///< in each step; else `dissipated` is what the energies at some instants lack
 };
 
 }   // namespace cablenet::system
