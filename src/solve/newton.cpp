@@ -194,8 +194,7 @@ system::TangentRequest Newton::tangent_request() {
   return {.matrix = tangent_, .shift = {1, step_.shift_v(), step_.shift_a()}, .turning = turning()};
 }
 
-/// A kept tangent says nothing of the tension at a later chord.
-bool Newton::predicts() const { return attempt_ != exact_attempt && (reuse_.computes_always() || attempt_ > 1); }
+bool Newton::predicts() const { return attempt_ != exact_attempt; }
 
 /// Where the first attempt fails, or goes round in a cycle, compression turns nothing: it makes tangents indefinite.
 /// That leads slack ropes to the end.  Bars that push need the tangent of the equations, which the third attempt has.

@@ -156,6 +156,16 @@ def check_fall_order(verification):
     verification.at_least("free fall of 24 elements to 0.48 s, from 8 to 2 ms: order", order(errors) / 2, 1.9)
 
 
+def net(verification):
+    """A net of 24 x 24 meshes of twine that also pushes, held along its top edge and let go."""
+    return verification.run({
+        "cable_types": {"twine": {"diameter": 2e-3, "density": 1140, "youngs_modulus": 1e8}},
+        "nets": {"panel": {"type": "twine", "corners": [[0, 0, 0], [5, 0, 0], [5, 5, 0], [0, 4, -3]], "meshes": [24, 24],
+                           "fixed": ["top"]}},
+        "points": {"corner": {"position": [-1, 0, 0], "motion": "fixed"}},
+        "time": {"end": 2.4, "step": 0.02}, "output": {"interval": 2.4, "history": ["corner"]}})
+
+
 def check_newton(verification):
     """Against the iterations with the exact tangent and the step's plain first guess."""
     for elements, before, part in ((96, 763, 0.40), (192, 1062, 0.30)):
@@ -163,6 +173,8 @@ def check_newton(verification):
         verification.check(f"fall of {elements} elements at 10 ms: iterations over {before}", now / before, part)
     now = turn(verification, 1e10, 0.2, 20).counted("newton_iterations")
     verification.check("stiff pendulum at 0.2 s: iterations over 1095", now / 1095, 0.35)
+    now = net(verification).counted("newton_iterations")
+    verification.check("net whose tangents are kept: iterations over 1403", now / 1403, 0.75)
 
 
 def check_adaptive(verification):
