@@ -24,12 +24,15 @@ ACCURACIES = (0.1, 0.01, 0.001, 0.0001)
 
 def read_scene(program, path):
     """The scene's text; the program itself says what is wrong with it."""
-    done = subprocess.run([program, "check", str(path)], capture_output=True, text=True)
+    named = f"./{path}" if str(path).startswith("-") else str(path)
+    done = subprocess.run([program, "check", named], capture_output=True, text=True, errors="replace")
     if done.returncode:
         print(done.stderr, end="", file=sys.stderr)
         raise SystemExit(done.returncode)
     try:
-        return SceneText(path.read_text(encoding="utf-8"), path.resolve().parent)
+        return SceneText(path.read_text(encoding="utf-8"))
+    except UnicodeDecodeError:
+        raise Refusal(f"{path} is not in UTF-8: save it as UTF-8") from None
     except yaml.YAMLError as error:
         words = " ".join(str(error).split())
         raise Refusal(f"{path}: Python's reader of YAML does not understand it: {words}") from error
@@ -61,6 +64,8 @@ def own_folder(folder):
 
 def make_chart(program, given):
     scene = read_scene(program, given.scene)
+    if given.write and given.write.is_dir():
+        raise Refusal(f"--write {given.write} is a folder; name a file", NO_OUTPUT)
     if given.write and not (given.write.resolve().parent.is_dir() and os.access(given.write.resolve().parent, os.W_OK)):
         raise Refusal(f"--write {given.write} cannot be written: there is no such folder, or no right to it", NO_OUTPUT)
     with own_folder(given.folder):
@@ -91,7 +96,7 @@ def write_scene(given, findings):
                       NO_SOLUTION)
     head = (f"# By cablenet chart: {percent(choice.error)} of the range of {choice.column}, the worst quantity, "
             f"for {percent(given.accuracy)}.\n")
-    text = findings.survey.variants.written_text(choice.run.settings, given.write.resolve().parent)
+    text = findings.survey.variants.written_text(choice.run.settings)
     given.write.write_text(head + text, encoding="utf-8")
     print(f"{given.write}: the scene with these settings")
     return 0

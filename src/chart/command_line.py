@@ -54,7 +54,7 @@ def parse(words):
     given = parser.parse_args(words)
     if given.write and given.accuracy is None:
         parser.error("--write needs --accuracy, which says what settings are wanted")
-    if given.write and given.write.resolve() == given.scene.resolve():
+    if given.write and given.write.exists() and given.scene.exists() and given.write.samefile(given.scene):
         parser.error(f"--write {given.write} is the scene itself; name another file")
     if given.folder is None:
         given.folder = pathlib.Path(given.scene.stem + ".chart")

@@ -9,6 +9,9 @@ import numpy
 # A ladder whose differences fall by less than this order does not converge, and is not extrapolated.
 LEAST_ORDER = {"mesh": 0.7, "step": 0.7, "tolerance": 0.25}
 
+# Its differences are taken to fall at least by this share from rung to rung.
+LEAST_FALL = 0.1
+
 # The order of the method; what seems to be more is chance.  A tolerance is for the error of a step, which is of third
 # order, and steps add up to an error of second order, so that the error goes with its power of 2/3 up to 1.
 ORDER = {"mesh": 2.0, "step": 2.0, "tolerance": 1.0}
@@ -66,7 +69,8 @@ class Ladder:
         return self.rung(self.last, column) + self.correction(column, mask)
 
     def doubt(self, column, mask):
-        """How far the limit may be off: by half of what the finest rung has moved it, or a tenth of what it adds."""
+        """How far the limit may be off: by half of what the finest rung has moved it, or a tenth of what it adds.  Where the
+        order is too low for a limit, by the rest of the geometric series of the rungs' differences."""
         if self.last < 1:
             return 0.0
         added = rms(self.correction(column, mask)[mask])
@@ -74,6 +78,7 @@ class Ladder:
             return added
         order = self.order(column, mask)
         if order is not None and order < LEAST_ORDER[self.kind]:
-            return rms(self.step_to(self.last, column)[mask])
+            left = max(float(numpy.exp(order * self.log_ratio(self.last))) - 1, LEAST_FALL)
+            return rms(self.step_to(self.last, column)[mask]) / left
         before = self.rung(self.last - 1, column) + self.correction(column, mask, self.last - 1)
         return max(0.1 * added, 0.5 * rms((self.limit(column, mask) - before)[mask]))

@@ -168,7 +168,7 @@ def mark_fails(axes, findings, belongs, place):
 
 
 def draw(findings):
-    plt.rcParams.update({"font.size": 10, "axes.grid": True, "grid.alpha": 0.25, "svg.fonttype": "none",
+    plt.rcParams.update({"font.size": 10, "text.parse_math": False, "axes.grid": True, "grid.alpha": 0.25, "svg.fonttype": "none",
                          "axes.spines.top": False, "axes.spines.right": False})
     figure = plt.figure(figsize=(11, 6), layout="constrained")
     grid = figure.add_gridspec(2, 2, width_ratios=(1.7, 1))

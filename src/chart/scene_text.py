@@ -2,21 +2,11 @@
 
 The text is not read and written anew, so that comments stay, and numbers that YAML 1.1 and 1.2 read differently.
 """
-import json
-import os
-import pathlib
-
 import yaml
 
+from messages import Refusal
+
 LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-
-
-def is_number(text):
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
 
 
 def flow_text(value):
@@ -41,6 +31,13 @@ def children(node):
     return list(enumerate(node.value)) if isinstance(node, yaml.SequenceNode) else []
 
 
+def nodes(node, path=()):
+    """(path, node) of a node and all below it.  What an alias repeats has a path at each place."""
+    yield path, node
+    for key, part in children(node):
+        yield from nodes(part, (*path, key))
+
+
 def scalars(node, path=()):
     """(path, node) of all values below a node that are neither maps nor lists."""
     if isinstance(node, yaml.ScalarNode):
@@ -50,10 +47,8 @@ def scalars(node, path=()):
 
 
 class SceneText:
-    def __init__(self, text, folder):
-        """@param folder  where the scene lies: the files that it names are found from there"""
+    def __init__(self, text):
         self.text = text
-        self.folder = pathlib.Path(folder)
         self.root = yaml.compose(text, Loader=LOADER)
 
     def find(self, *path):
@@ -82,21 +77,11 @@ class SceneText:
         return {("cables", *path): int(node.value) for path, node in scalars(cables)
                 if path[-1] == "elements"} if cables is not None else {}
 
-    def files(self, folder=None):
-        """{path: text} of all values that name a file, with the file's place seen from `folder`, or else absolute."""
-        found = {}
-        for path, node in scalars(self.root):
-            if "." not in node.value or is_number(node.value) or os.path.isabs(node.value):
-                continue
-            target = (self.folder / node.value).resolve()
-            if target.is_file():
-                found[path] = json.dumps(os.path.relpath(target, folder) if folder else str(target))
-        return found
-
     def edited(self, values):
         """The text with new values.
         @param values  {path: text}; None takes a key of a map away, and what is absent is added"""
         edits, added = [], {}
+        self._check_aliases(values)
         for path, text in values.items():
             if self.find(*path) is not None:
                 edits.append(self._replacement(path, text))
@@ -107,6 +92,19 @@ class SceneText:
         for start, end, new in sorted(set(edits), reverse=True):
             text = text[:start] + new + text[end:]
         return text
+
+    def _check_aliases(self, values):
+        """What is written once and stands at several places can only be changed at all of them."""
+        places = {}
+        for path, node in nodes(self.root):
+            places.setdefault(id(node), []).append(path)
+        for path, text in values.items():
+            known = next(n for n in range(len(path), -1, -1) if self.find(*path[:n]) is not None)
+            for other in places[id(self.find(*path[:known]))]:
+                other = (*other, *path[known:])
+                if values.get(other, "") != text:
+                    raise Refusal(f"{'.'.join(map(str, path))} cannot be changed alone, because an alias repeats it at "
+                                  f"{'.'.join(map(str, other))}: write the value out at one of the two")
 
     def _replacement(self, path, text):
         if text is None:

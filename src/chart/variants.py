@@ -147,7 +147,7 @@ class Variants:
 
     def run_text(self, settings):
         """The scene of a run of the ladder, which lies in another folder."""
-        edits = self.scene.files() | self.settings_edits(settings)
+        edits = self.settings_edits(settings)
         if self.interval is not None:
             edits["output", "interval"] = number_text(self.interval)
         if self.probes:
@@ -156,6 +156,6 @@ class Variants:
             edits["output", "energy"] = "true"
         return self.scene.edited(edits)
 
-    def written_text(self, settings, folder):
-        """The user's scene with these settings, for a file in `folder`."""
-        return self.scene.edited(self.scene.files(folder) | self.settings_edits(settings))
+    def written_text(self, settings):
+        """The user's scene with these settings."""
+        return self.scene.edited(self.settings_edits(settings))

@@ -1,9 +1,8 @@
-"""The parts of the chart, without the program: edits of scenes, limits of ladders, judgeds in which histories can be told."""
+"""The parts of the chart, without the program: edits of scenes, limits of ladders, spans of time in which histories can be told."""
 import argparse
 import fractions
 import pathlib
 import sys
-import tempfile
 import types
 import unittest
 
@@ -15,6 +14,7 @@ sys.dont_write_bytecode = True
 
 from history import scales, smooth_attitude
 from ladder import Ladder
+from messages import Refusal
 from reference import Reference
 from scene_text import SceneText
 from variants import Settings, Stepping, Variants
@@ -42,10 +42,10 @@ HALF = Settings(fractions.Fraction(1, 2), Stepping(step=0.02, tolerance=4e-3))
 
 class Edits(unittest.TestCase):
     def variants(self, text=BLOCK):
-        return Variants(SceneText(text, "."))
+        return Variants(SceneText(text))
 
     def test_only_what_is_named_changes(self):
-        changed = self.variants().written_text(HALF, ".").splitlines()
+        changed = self.variants().written_text(HALF).splitlines()
         different = [(old, new) for old, new in zip(BLOCK.splitlines(), changed) if old != new]
         self.assertEqual(len(changed), len(BLOCK.splitlines()))
         self.assertEqual([new.strip() for _, new in different],
@@ -55,7 +55,7 @@ class Edits(unittest.TestCase):
 
     def test_scene_as_written_keeps_its_numbers(self):
         variants = self.variants()
-        again = SceneText(variants.written_text(variants.own(), "."), ".")
+        again = SceneText(variants.written_text(variants.own()))
         for path in (("time", "step"), ("time", "adaptive", "tolerance")):
             self.assertEqual(again.number(*path), variants.scene.number(*path))
         self.assertEqual(again.elements(), variants.scene.elements())
@@ -63,39 +63,37 @@ class Edits(unittest.TestCase):
     def test_adaptive_is_taken_away(self):
         for text in (BLOCK, "time: {end: 10, step: 0.01, adaptive: {tolerance: 1.0e-3}}\ncables: {c: {elements: 4}}\n",
                      "time: {adaptive: {tolerance: 1.0e-3}, end: 10, step: 0.01}\ncables: {c: {elements: 4}}\n"):
-            fixed = SceneText(self.variants(text).written_text(Settings(fractions.Fraction(1), Stepping(step=0.01)), "."), ".")
+            fixed = SceneText(self.variants(text).written_text(Settings(fractions.Fraction(1), Stepping(step=0.01))))
             self.assertIsNone(fixed.find("time", "adaptive"))
             self.assertEqual((fixed.number("time", "end"), fixed.number("time", "step")), (10, 0.01))
 
     def test_absent_keys_are_added(self):
         for text in (BLOCK, "{time: {end: 10, step: 0.01}, cables: {c: {elements: 4}}, points: {b: {position: [0, 0, 0]}}}"):
-            run = SceneText(self.variants(text).run_text(Settings(fractions.Fraction(1), Stepping("plain", 0.01, 1e-4))), ".")
+            run = SceneText(self.variants(text).run_text(Settings(fractions.Fraction(1), Stepping("plain", 0.01, 1e-4))))
             self.assertEqual(run.value("time", "scheme"), "plain")
             self.assertEqual(run.number("time", "adaptive", "tolerance"), 1e-4)
             self.assertEqual(run.number("output", "interval"), 0.1)
             self.assertEqual(run.find("output", "history").value[0].value, "b")
 
     def test_radius_goes_with_its_scheme(self):
-        other = SceneText(self.variants().run_text(Settings(fractions.Fraction(1), Stepping("plain", 0.01))), ".")
+        other = SceneText(self.variants().run_text(Settings(fractions.Fraction(1), Stepping("plain", 0.01))))
         self.assertIsNone(other.find("time", "spectral_radius"))
-        own = SceneText(self.variants().run_text(Settings(fractions.Fraction(1), Stepping("", 0.01))), ".")
+        own = SceneText(self.variants().run_text(Settings(fractions.Fraction(1), Stepping("", 0.01))))
         self.assertEqual(own.number("time", "spectral_radius"), 0.5)
 
-    def test_files_are_found_from_elsewhere(self):
-        with tempfile.TemporaryDirectory() as folder:
-            scene, other = pathlib.Path(folder, "scenes").resolve(), pathlib.Path(folder, "other").resolve()
-            scene.mkdir()
-            other.mkdir()
-            (scene / "motion.csv").write_text("")
-            variants = Variants(SceneText(BLOCK, scene))
-            path = ("points", "a", "motion", "file")
-            run, written = (SceneText(text, ".").value(*path) for text in (variants.run_text(HALF), variants.written_text(HALF, other)))
-            self.assertEqual(run, str(scene / "motion.csv"))
-            self.assertEqual((other / written).resolve(), scene / "motion.csv")
+    def test_what_an_alias_repeats_is_not_changed_alone(self):
+        for text, place in (("cables: {c: {length: &n 10, elements: *n}}\n", "cables.c.length"),
+                            ("cables: {c: {elements: 4}}\ntime: &t {step: 0.1}\nother: *t\n", "other.step")):
+            with self.assertRaises(Refusal) as caught:
+                SceneText(text).edited({("cables", "c", "elements"): "8", ("time", "step"): "0.2"})
+            self.assertIn(place, str(caught.exception))
+        text = "cables: {c: {elements: &n 4}, d: {elements: *n}}\n"
+        both = {("cables", name, "elements"): "8" for name in "cd"}
+        self.assertEqual(SceneText(text).edited(both).count("8"), 1)
 
     def test_shape_with_a_row_for_each_node(self):
         text = "cables: {c: {elements: 2, shape: [[0, 0, 0], [1, 0, 0], [4, 0, 0]]}, d: {elements: 4, shape: [[0, 0, 0], [1, 0, 0]]}}\n"
-        double = SceneText(self.variants(text).written_text(Settings(fractions.Fraction(2), None), "."), ".")
+        double = SceneText(self.variants(text).written_text(Settings(fractions.Fraction(2), None)))
         rows = [float(row.value[0].value) for row in double.find("cables", "c", "shape").value]
         self.assertEqual(rows, [0, 0.5, 1, 2.5, 4])
         self.assertEqual(len(double.find("cables", "d", "shape").value), 2)
