@@ -127,6 +127,10 @@ const char* Equilibrium::advice() const {
 void Equilibrium::add_notes(const network::Network& network, Report& report) {
   if (statics_->is_unstable()) add_note(report, "the equilibrium is not stable: a disturbance would leave it");
   add_note(report, note_of_pushing(network, statics_->pushing(), PETSC_COMM_WORLD));
+  if (statics_->is_drag_lost())
+    add_note(report,
+             "the current is too weak to tell where cables lie on the bed without friction: its drag is as small as "
+             "what is left of the forces; give seabed.friction, or no current");
   if (statics_->leaves_friction_out())
     add_note(report,
              "this equilibrium is without the bed's friction: with it cables would push, or nothing was found that "

@@ -2,6 +2,8 @@
 
 #include <tuple>
 
+#include "disturbance.hpp"
+
 namespace cablenet::solve {
 namespace {
 
@@ -12,9 +14,12 @@ using system::StaticRule;
 constexpr double rough = 0.01;
 
 /// An element's stiffness is, in the first stage, `first_ratio` times the sum of `over_tension` times its tension and
-/// of `share_of_drag` times all drag.  It grows by `hardening` from stage to stage.  What hangs bears much more than
-/// drag, and would stretch far if its own tension alone were its measure.
-constexpr double first_ratio = 3, over_tension = 10, share_of_drag = 0.01, hardening = 4;
+/// of `share_of_drag` times all drag.  What hangs bears much more than drag, and would stretch far if its own tension
+/// alone were its measure.
+constexpr double first_ratio = 3, over_tension = 10, share_of_drag = 0.01;
+
+/// By how much it grows from stage to stage: at first, and where that did not arrive.
+constexpr double hardenings[] = {4, 2};
 
 /// The residual over the drag at which a descent ends, and a stage.
 constexpr double goal_of_descent = 1e-3, goal_of_stage = 1e-3;
@@ -40,21 +45,31 @@ bool BedDrift::find(Vec x) {
   const bool is_near = descent_.go_on(x, rough);
   forces_.still(false);
   if (!is_near) return false;
-  harden_in_stages(x);
-  return arrive(x);
+  forces_.hold_drag(x);
+  std::tie(drag_sum_, drag_norm_) = forces_.measure_drag();
+  if (drag_sum_ == 0) return arrive(x);
+  const system::Vector still = descent_.make_vector();
+  check(VecCopy(x, still));
+  for (const double hardening : hardenings) {
+    check(VecCopy(still, x));
+    harden_in_stages(x, hardening);
+    if (arrive(x)) return true;
+    if (progress_.is_over()) break;
+  }
+  return false;
 }
 
 bool BedDrift::arrive(Vec x) { return arrive(x, {0, most_last_corrections, false}); }
 
-void BedDrift::harden_in_stages(Vec x) {
-  forces_.hold_drag(x);
-  std::tie(drag_sum_, drag_norm_) = forces_.measure_drag();
+void BedDrift::harden_in_stages(Vec x, double hardening) {
   StaticRule softer = rule_;
   softer.softening = {.over_tension = over_tension, .least = share_of_drag * drag_sum_};
   for (double ratio = first_ratio; ratio * softer.softening.least < hardest_ && !progress_.is_over();
        ratio *= hardening) {
     softer.softening.ratio = ratio;
     forces_.soften(softer, x);
+    // Which of two mirror images it goes to is not left to rounding, and so not to the number of ranks.
+    if (ratio == first_ratio) disturb(descent_.network(), x);
     settle(x, ratio == first_ratio);
   }
   forces_.harden(x);

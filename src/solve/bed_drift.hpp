@@ -28,7 +28,7 @@ public:
   bool arrive(Vec x);
 
 private:
-  void harden_in_stages(Vec x);
+  void harden_in_stages(Vec x, double hardening);
   void settle(Vec x, bool is_first);
   bool arrive(Vec x, const StaticGoal& goal);
 

@@ -146,6 +146,12 @@ std::pair<double, double> StaticForces::measure_drag() {
   return {sum, norm(drag_)};
 }
 
+double StaticForces::drag(Vec x) {
+  hold_drag(x);
+  let_drag_follow();
+  return measure_drag().second;
+}
+
 void StaticForces::soften(const system::StaticRule& rule, Vec x) {
   assembler_.begin(situation(system::InternalForce::of_statics, rule), x, v_);
 }

@@ -36,7 +36,7 @@ constexpr double descent_goals[] = {1e-3, 1e-6, 1e-8, 1e-10};
 /// In a flow, the goal of the first descent.  A descent holds the drag.  Newton's method has its derivative, so it can
 /// take over much earlier.
 constexpr double goal_in_flow = 0.02;
-constexpr int most_after_descent = 40, most_near = 20;
+constexpr int most_directly = 12, most_after_descent = 40, most_near = 20;
 
 /// The first time that a network gets to settle, over that of a fall through its extent.
 constexpr double settling_time = 10, standard_gravity = 9.80665;
@@ -49,6 +49,9 @@ constexpr double pushing_part = 1e-9;
 
 /// Likewise where friction on the bed holds it.
 constexpr double held_part = 1e-3;
+
+/// Drag decides where cables lie on a bed if what is left is no more than this part of it.
+constexpr double part_of_drag = 0.01;
 
 /// An equilibrium is near the drawn shape if no coordinate is farther from it than this, over the network's extent.
 constexpr double near = 1e-3;
@@ -79,7 +82,7 @@ bool Statics::solve() {
 /// What is drawn in equilibrium is taken as it is, unless it bears nothing and stands on end.  Otherwise a stable shape
 /// is looked for, at first one in which nothing pushes.
 bool Statics::find() {
-  const bool directly = go_directly();
+  const bool directly = newton_.settle(x_, {StaticRule::Kind::exact}, {0, most_directly, false, false});
   const bool is_drawn = directly && progress_.iterations() == 0 && newton_.load() > 0;
   if (directly) newton_.count_negative_pivots(x_);
   if (directly && is_near_drawn() && (is_drawn || !is_unstable())) return true;
@@ -155,9 +158,6 @@ bool Statics::is_near_drawn() {
   check(VecNorm(trial_, NORM_INFINITY, &moved));
   return moved <= near * assembler_.network().extent;
 }
-
-/// Newton's method on the cables as they are.
-bool Statics::go_directly() { return newton_.settle(x_, {StaticRule::Kind::exact}, {0, 12, false, false}); }
 
 bool Statics::go_down() {
   check(VecCopy(drawn_, x_));
@@ -273,6 +273,8 @@ bool Statics::conclude(bool converged) {
   load = std::max(load, largest_drawn_load_);
   newton_.evaluate({StaticRule::Kind::exact}, x_, false);
   check(VecNorm(newton_.residual(), NORM_INFINITY, &residual));
+  const double drag = drifts() ? forces_.drag(x_) : 0;
+  is_drag_lost_ = drag > 0 && residual > part_of_drag * drag;
   largest_load_ = load;
   imbalance_ = residual / (load > 0 ? load : std::max(newton_.scales().load, std::numeric_limits<double>::min()));
   ends_by_rounding_ = imbalance_ > enough && residual <= newton_.rounding();

@@ -2,7 +2,7 @@
 import numpy as np
 
 from mooring_scenes import DIAMETER, DRAWN, STIFFNESS, Mooring
-from statics_support import report_number
+from statics_support import fixed, report_number
 from support import Verification
 
 # Fourteen draws, three shapes each.  The first ones are lines to fixed fairleads in still water.
@@ -79,6 +79,39 @@ class Chain:
             keep = max(keep / 5, 1e-13) if share > 0.9 else min(3 * keep, 1e3)
 
 
+def on_bed(current, points, cables):
+    type_ = {"diameter": 0.05, "mass_per_length": 3, "axial_stiffness": 1e6, "normal_drag": 1.2, "tangential_drag": 0.1}
+    return {"environment": {"fluid": {"density": 1025, "current": {"velocity": current}},
+                            "seabed": {"level": -20, "stiffness": 3e5, "friction": 0}},
+            "cable_types": {"light": type_}, "points": points, "cables": cables, "output": {"history": ["b"]}}
+
+
+def check_twins(v):
+    """A shape that has a mirror image is the same one on any number of ranks."""
+    points = {"a": fixed(0, 0, -20), "b": {"position": [10, 0, -20]}}
+    cables = {f"c{n}": {"type": "light", "from": "a", "to": "b", "length": n, "elements": n} for n in (10, 15)}
+    ends = []
+    for ranks in (1, 2, 3):
+        v.ranks = ranks
+        run, done = v.attempt(on_bed([0.5, 0, 0], points, cables))
+        v.close(f"twins on {ranks} ranks: exit status", done.returncode, 0, 0)
+        ends.append(run["b.y"][0])
+    v.ranks = 0
+    v.check("twins: the end's place across the current, apart by the number of ranks [m]", np.ptp(ends), 1e-6)
+
+
+def check_weak_current(v):
+    """A note says where drag is lost in rounding, and only there."""
+    points = {"a": fixed(0, 0, 0), "b": {"position": [20, 3, -20]}}
+    cables = {"c": {"type": "light", "from": "a", "to": "b", "length": 60, "elements": 40, "shape": "catenary"}}
+    for speed, notes in ((3e-5, 1), (0.3, 0)):
+        scene = on_bed([0, speed, 0], points, cables)
+        scene["cable_types"]["light"] |= {"tension_only": True, "mass_per_length": 20, "axial_stiffness": 1e7}
+        _, done = v.attempt(scene)
+        v.close(f"a current of {speed} m/s: exit status", done.returncode, 0, 0)
+        v.close(f"a current of {speed} m/s: notes that it is too weak", done.stderr.count("too weak"), notes, 0)
+
+
 def check_drifting(v, mooring):
     for drawn in DRAWN:
         run, done = v.attempt(mooring.scene(drawn))
@@ -136,6 +169,8 @@ def main():
             check_least_energy(verification, mooring, rows[0])
     for seed in DRIFTING:
         check_drifting(verification, Mooring(seed))
+    check_twins(verification)
+    check_weak_current(verification)
     verification.finish()
 
 

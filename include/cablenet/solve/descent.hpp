@@ -49,6 +49,7 @@ public:
   /// Goes down with the drag that is held, until the residual is at most `goal` [N] or rounding hides the way.
   void settle_held(Vec x, double goal);
   double largest_stiffness() const;   ///< EA [N]
+  const partition::LocalNetwork& network() const { return parts_.assembler.network(); }
   system::Vector make_vector() const { return parts_.assembler.make_vector(); }
 
 private:

@@ -44,6 +44,8 @@ public:
   bool holds_drag() const { return holds_drag_; }
   /// Of the held drag on all nodes: the sum of its components' absolute values, and its 2-norm.  [N]
   std::pair<double, double> measure_drag();
+  /// The 2-norm of the drag at x, which follows the shape afterwards.  [N]
+  double drag(Vec x);
 
   /// Softens the elements by their tensions at x, as the rule's softening has it.
   void soften(const system::StaticRule& rule, Vec x);

@@ -59,6 +59,8 @@ public:
   bool is_there_without_pushing() const { return is_there_without_pushing_; }
   /// Friction that holds was left out: with it no equilibrium was found, or only one that pushes or is not stable.
   bool leaves_friction_out() const { return leaves_friction_out_; }
+  /// What is left is as large as the drag that decides where cables lie on a bed without friction.
+  bool is_drag_lost() const { return is_drag_lost_; }
   FailedPart failed_part();
   std::string linear_solver() const { return newton_.linear().describe(); }
 
@@ -67,7 +69,6 @@ private:
   bool is_taut();
   double slight_push();   ///< [N]
   bool is_near_drawn();
-  bool go_directly();
   bool go_down();
   bool let_push(bool is_equilibrium);
   bool drifts() const;
@@ -94,6 +95,7 @@ private:
   StaticNewton newton_;
   double largest_load_ = 0, imbalance_ = 0;
   bool ends_by_rounding_ = false, is_there_without_pushing_ = false, leaves_friction_out_ = false;
+  bool is_drag_lost_ = false;
   PetscReal largest_drawn_load_ = 0;   ///< on a node [N]
   std::string failure_;
 };
