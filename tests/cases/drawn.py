@@ -32,7 +32,7 @@ def expect(truth, text):
 def said(command):
     done = subprocess.run(command, env=ENVIRONMENT, text=True, capture_output=True, timeout=60)
     expect(done.returncode == 0, f"{command[-1]}: status {done.returncode}: {done.stderr}")
-    return [line.removeprefix("cablenet: note: ") for line in done.stderr.splitlines() if "drawn" in line or "inside the bed" in line]
+    return [line.removeprefix("cablenet: note: ") for line in done.stderr.splitlines() if "is drawn" in line or "inside the bed" in line]
 
 
 def drawn(given, patterns, ranks=(), **keys):
