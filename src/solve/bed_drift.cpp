@@ -68,7 +68,8 @@ void BedDrift::harden_in_stages(Vec x, double hardening) {
        ratio *= hardening) {
     softer.softening.ratio = ratio;
     forces_.soften(softer, x);
-    // Which of two mirror images it goes to is not left to rounding, and so not to the number of ranks.
+    // A shape may have a mirror image.  Without a disturbance, rounding would choose between them, and with it the
+    // number of ranks.
     if (ratio == first_ratio) disturb(descent_.network(), x);
     settle(x, ratio == first_ratio);
   }

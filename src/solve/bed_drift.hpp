@@ -12,8 +12,9 @@ namespace cablenet::solve {
 /// cables, an element that turns far is stretched, and its stiffness over its tension is what shortens corrections.
 /// From there they become as stiff as they are, in stages.
 ///
-/// In each stage drag is held and taken anew until Newton's method, which has its derivative, arrives.  That method
-/// takes the tension that a correction predicts (StaticRule::Kind::descent), and whole corrections.
+/// In each stage the drag is held and taken anew until Newton's method arrives.  Newton's method has the drag's
+/// derivative.  It takes whole corrections.  Its tangent has the tension that the last correction predicted
+/// (StaticRule::Kind::descent).
 ///
 /// Tests: tests/verification/slack_moorings.py
 /// All member functions are collective.
@@ -22,12 +23,11 @@ public:
   /// All must outlive it.
   BedDrift(Descent& descent, StaticForces& forces, StaticNewton& newton, StaticProgress& progress, bool never_pushes);
 
-  /// Goes from x to the equilibrium.  @returns whether it got there; otherwise x is the best that was
+  /// Goes from x to the equilibrium.  @returns whether it got there; otherwise x is where the last attempt ended
   bool find(Vec x);
-  /// Newton's method alone, as far as rounding allows.  @returns whether it got there; otherwise x is as it was
-  bool arrive(Vec x);
 
 private:
+  bool arrive(Vec x);
   void harden_in_stages(Vec x, double hardening);
   void settle(Vec x, bool is_first);
   bool arrive(Vec x, const StaticGoal& goal);

@@ -50,7 +50,7 @@ constexpr double pushing_part = 1e-9;
 /// Likewise where friction on the bed holds it.
 constexpr double held_part = 1e-3;
 
-/// Drag decides where cables lie on a bed if what is left is no more than this part of it.
+/// The drag tells where cables lie on a bed if the unbalanced force is at most this part of the drag.
 constexpr double part_of_drag = 0.01;
 
 /// An equilibrium is near the drawn shape if no coordinate is farther from it than this, over the network's extent.

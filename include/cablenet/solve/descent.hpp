@@ -46,7 +46,8 @@ public:
   /// Goes down with the true stiffness of the cables.  It ends where the residual is at most `goal` times the loads.
   /// @returns whether it got there
   bool go_on(Vec x, double goal);
-  /// Goes down with the drag that is held, until the residual is at most `goal` [N] or rounding hides the way.
+  /// Goes down while the drag is held.  It ends where the residual is at most `goal` [N], or where rounding hides
+  /// whether the energy falls.
   void settle_held(Vec x, double goal);
   double largest_stiffness() const;   ///< EA [N]
   const partition::LocalNetwork& network() const { return parts_.assembler.network(); }

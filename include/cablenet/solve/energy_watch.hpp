@@ -10,7 +10,7 @@ namespace cablenet::solve {
 /// options that took energy_momentum off its weights, have to be watched.
 bool may_gain_energy(const scene::Time& time, const AlphaWeights& weights);
 
-/// Beside the axial dissipation, the scheme takes energy by its weights.
+/// The scheme's weights take energy.  The axial dissipation is not counted.
 bool damps(const AlphaWeights& weights);
 
 /// Whether energies are looked at after so many steps: one in 16, and one in four of the first 64.  That costs less

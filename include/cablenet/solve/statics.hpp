@@ -59,7 +59,8 @@ public:
   bool is_there_without_pushing() const { return is_there_without_pushing_; }
   /// Friction that holds was left out: with it no equilibrium was found, or only one that pushes or is not stable.
   bool leaves_friction_out() const { return leaves_friction_out_; }
-  /// What is left is as large as the drag that decides where cables lie on a bed without friction.
+  /// Cables lie on a bed without friction, and their drag is no larger than the unbalanced force.  The current then
+  /// does not tell where they lie.
   bool is_drag_lost() const { return is_drag_lost_; }
   FailedPart failed_part();
   std::string linear_solver() const { return newton_.linear().describe(); }
