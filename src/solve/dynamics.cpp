@@ -82,7 +82,7 @@ Verdict Dynamics::run(const Observers& observers) {
   const long most_steps = stepper_.most_steps();
   Verdict verdict = Verdict::finished;
   while (verdict == Verdict::finished && !schedule_.at_end()) {
-    if (counts_.steps >= most_steps) {
+    if (counts_.steps >= most_steps || is_stopped_) {
       verdict = Verdict::stopped;
     } else if (!step(schedule_.next_step())) {
       verdict = Verdict::failed;

@@ -43,7 +43,8 @@ partition::LocalNetwork in_frame(const system::Assembler& assembler, double t, c
 
 double relaxation_tolerance(const partition::LocalNetwork& network) { return coarseness * network.extent; }
 
-bool relax(const system::Assembler& assembler, double t, const Vector3& velocity, double duration, Vec x) {
+bool relax(const system::Assembler& assembler, double t, const Vector3& velocity, double duration,
+           StaticProgress& progress, Vec x) {
   scene::Time time;
   time.end = duration;
   time.step = first_step * duration;
@@ -53,8 +54,11 @@ bool relax(const system::Assembler& assembler, double t, const Vector3& velocity
   system::Assembler settling(in_frame(assembler, t, velocity, duration), force_rule_of(time), assembler.communicator());
   StaticForces(settling, 0, Vector3::Zero()).start_from(x);
   Dynamics dynamics(settling, time, {duration, relaxation_prefix, most_steps, false, false});
-  const Verdict verdict = dynamics.run(
-      {[&](const Instant& instant) { check(VecCopy(instant.x, x)); }, [](double, double, const Counts&) {}});
+  const auto keep = [&](const Instant& instant) { check(VecCopy(instant.x, x)); };
+  const auto watch = [&](double now, double, const Counts&) {
+    if (!progress.note_settling(now, duration)) dynamics.stop();
+  };
+  const Verdict verdict = dynamics.run({keep, watch});
   return verdict != Verdict::failed;
 }
 

@@ -21,22 +21,36 @@ double seconds(std::chrono::steady_clock::duration d) { return std::chrono::dura
 StaticProgress::StaticProgress(MPI_Comm communicator)
     : communicator_(communicator),
       monitors_(petsc::flag_option(communicator, nullptr, statics_monitor_option.text)),
-      limit_(read_number(statics_time_limit_option, communicator, nullptr, unlimited, 0, unlimited)) {}
+      limit_(read_number(statics_time_limit_option, communicator, nullptr, unlimited, 0, unlimited)) {
+  MPI_Comm_rank(communicator, &rank_);
+}
 
-/// Clocks differ from rank to rank.  So the first rank alone reads its clock, and all follow it.
 bool StaticProgress::note(const char* way, double residual, double reference, const std::string& details) {
-  int rank = 0;
-  MPI_Comm_rank(communicator_, &rank);
   const Clock::time_point now = Clock::now();
-  if (rank == 0 && monitors_)
+  if (rank_ == 0 && monitors_)
     fmt::print("  statics {}, {}: residual {:.6g} N, {:.3g} of the loads{}\n", iterations_, way, residual,
                residual / reference, details);
-  if (rank == 0 && !monitors_ && seconds(now - shown_) > period) {
-    shown_ = now;
-    fmt::print("statics: {:.0f} s, iteration {}, {}: residual {:.3g} of the loads\n", seconds(now - begun_),
-               iterations_, way, residual / reference);
-    std::fflush(stdout);
-  }
+  else if (is_due(now))
+    show(now, fmt::format("{}: residual {:.3g} of the loads", way, residual / reference));
+  return goes_on(now);
+}
+
+bool StaticProgress::note_settling(double t, double duration) {
+  const Clock::time_point now = Clock::now();
+  if (is_due(now)) show(now, fmt::format("the network settles, {:.3g} of {:.3g} s", t, duration));
+  return goes_on(now);
+}
+
+bool StaticProgress::is_due(Clock::time_point now) const { return rank_ == 0 && seconds(now - shown_) > period; }
+
+void StaticProgress::show(Clock::time_point now, const std::string& text) {
+  shown_ = now;
+  fmt::print("statics: {:.0f} s, iteration {}, {}\n", seconds(now - begun_), iterations_, text);
+  std::fflush(stdout);
+}
+
+/// Clocks differ from rank to rank.  So the first rank alone reads its clock, and all follow it.
+bool StaticProgress::goes_on(Clock::time_point now) {
   if (limit_ == unlimited) return true;
   int over = seconds(now - begun_) > limit_ ? 1 : 0;
   MPI_Bcast(&over, 1, MPI_INT, 0, communicator_);

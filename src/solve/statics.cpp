@@ -257,7 +257,7 @@ bool Statics::go_in_time() {
   double duration = settling_time * std::sqrt(extent / standard_gravity);
   check(VecCopy(drawn_, x_));
   for (int i = 0; i < longer_times && !progress_.is_over(); ++i, duration *= 2) {
-    if (!relax(assembler_, t_, velocity_, duration, x_)) return false;
+    if (!relax(assembler_, t_, velocity_, duration, progress_, x_)) return false;
     check(VecCopy(x_, trial_));
     if (newton_.settle_as_they_are(x_, 20)) return true;
     check(VecCopy(trial_, x_));

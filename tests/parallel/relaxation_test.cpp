@@ -17,7 +17,8 @@ network::Network network_from(const std::string& text) {
 Field relaxed(const network::Network& network, const Vector3& velocity, double duration) {
   System system(network, {}, PETSC_COMM_WORLD);
   const system::Vector x = system.vector(network.position);
-  EXPECT_TRUE(solve::relax(system.assembler, 0, velocity, duration, x));
+  solve::StaticProgress progress(PETSC_COMM_WORLD);
+  EXPECT_TRUE(solve::relax(system.assembler, 0, velocity, duration, progress, x));
   return system.field(x);
 }
 
@@ -66,4 +67,11 @@ points:
 cables: {one: {type: bar, from: left, to: ridge, elements: 1}, other: {type: bar, from: ridge, to: right, elements: 1}}
 )");
   EXPECT_NEAR(relaxed(gable, Vector3::Zero(), 10)[SceneNode(2)].z(), -0.5, 0.02) << "it hangs";
+}
+
+/// The first of its steps takes a ten thousandth of the duration.
+TEST(Relaxation, EndsAfterAStepWhereTheTimeIsOver) {
+  const Option none("-cable_statics_time_limit", "0");
+  const network::Network hanging = towed("motion: fixed", ", current: {velocity: [-2, 0, 0]}");
+  EXPECT_NEAR(relaxed(hanging, Vector3::Zero(), 60)[SceneNode(1)].x(), 0, 1e-3) << "the tail has hardly moved";
 }

@@ -34,6 +34,8 @@ public:
 
   /// Goes from the start, or from what was loaded, to the end.
   Verdict run(const Observers& observers);
+  /// To be called by an observer on all ranks: the run ends after this step (Verdict::stopped).
+  void stop() { is_stopped_ = true; }
 
   const Counts& counts() const { return counts_; }
   std::string linear_solver() const { return newton_.linear_solver(); }
@@ -78,7 +80,7 @@ private:
   std::optional<StepControl> control_;   ///< of adaptive steps
   std::optional<StepSurvey> survey_;     ///< of steps that are not
   Counts counts_;
-  bool is_started_ = false;
+  bool is_started_ = false, is_stopped_ = false;
   double last_step_ = 0;    ///< [s]
   int outside_body_ = -1;   ///< in Network::bodies, of one that the last step brought too near to a singular attitude
   std::string failure_;

@@ -1,4 +1,5 @@
 #pragma once
+#include "cablenet/solve/static_progress.hpp"
 #include "cablenet/system/assembler.hpp"
 
 namespace cablenet::solve {
@@ -10,11 +11,12 @@ inline constexpr const char* relaxation_prefix = "relax_";
 /// points stay where they are at t, and the water moves past.  Two dampings take the motion out: one by mass, and that
 /// of the scheme, which at spectral radius 0 and with long steps leaves nothing of vibrations.  No element carries
 /// compression here, because one that does could come to rest standing on end.
-/// Collective.  Takes at most 400 steps, or -relax_ts_max_steps.
+/// Collective.  Takes at most 400 steps, or -relax_ts_max_steps, and ends where the time of statics is over.
 /// @param x  the shape to start from; afterwards the shape that it has settled to
 /// @param duration [s]
 /// @returns false where the run through time failed; x is then its last good state
-bool relax(const system::Assembler& assembler, double t, const Vector3& velocity, double duration, Vec x);
+bool relax(const system::Assembler& assembler, double t, const Vector3& velocity, double duration,
+           StaticProgress& progress, Vec x);
 
 /// The local error that a step may have while the network settles: a thousandth of the network's extent.  [m]
 double relaxation_tolerance(const partition::LocalNetwork& network);

@@ -21,6 +21,8 @@ public:
   /// @param details   for those who look at each iteration
   /// @returns false where the time is over
   bool note(const char* way, double residual, double reference, const std::string& details);
+  /// Likewise after a step of a network that settles in time: it has come to t of the duration.  [s]
+  bool note_settling(double t, double duration);
   void count() { ++iterations_; }
   int iterations() const { return iterations_; }
   bool is_over() const { return is_over_; }
@@ -29,7 +31,12 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
 
+  bool is_due(Clock::time_point now) const;
+  void show(Clock::time_point now, const std::string& text);
+  bool goes_on(Clock::time_point now);
+
   MPI_Comm communicator_;
+  int rank_ = 0;
   bool monitors_;
   double limit_;
   Clock::time_point begun_ = Clock::now(), shown_ = begun_;
