@@ -11,15 +11,19 @@ using petsc::check;
 using system::StaticRule;
 
 /// The residual over the loads at which the equilibrium in still water is near enough.
-constexpr double rough = 0.01;
+constexpr double rough = 0.1;
 
 /// An element's stiffness is, in the first stage, `first_ratio` times the sum of `over_tension` times its tension and
-/// of `share_of_drag` times all drag.  What hangs bears much more than drag, and would stretch far if its own tension
-/// alone were its measure.
-constexpr double first_ratio = 3, over_tension = 10, share_of_drag = 0.01;
+/// of a share of all drag.  What hangs bears much more than drag, and would stretch far if its own tension alone were
+/// its measure.
+constexpr double first_ratio = 3, over_tension = 10;
 
-/// By how much it grows from stage to stage: at first, and where that did not arrive.
-constexpr double hardenings[] = {4, 2};
+/// That share of all drag, and by how much the stiffness grows from stage to stage.  Where the first way did not
+/// arrive, the others are tried.
+struct Way {
+  double share_of_drag, hardening;
+};
+constexpr Way ways[] = {{0.01, 4}, {0.1, 4}, {0.01, 2}};
 
 /// The residual over the drag at which a descent ends, and a stage.
 constexpr double goal_of_descent = 1e-3, goal_of_stage = 1e-3;
@@ -50,9 +54,9 @@ bool BedDrift::find(Vec x) {
   if (drag_sum_ == 0) return arrive(x);
   const system::Vector still = descent_.make_vector();
   check(VecCopy(x, still));
-  for (const double hardening : hardenings) {
+  for (const auto& [share_of_drag, hardening] : ways) {
     check(VecCopy(still, x));
-    harden_in_stages(x, hardening);
+    harden_in_stages(x, share_of_drag * drag_sum_, hardening);
     if (arrive(x)) return true;
     if (progress_.is_over()) break;
   }
@@ -61,9 +65,9 @@ bool BedDrift::find(Vec x) {
 
 bool BedDrift::arrive(Vec x) { return arrive(x, {0, most_last_corrections, false}); }
 
-void BedDrift::harden_in_stages(Vec x, double hardening) {
+void BedDrift::harden_in_stages(Vec x, double least, double hardening) {
   StaticRule softer = rule_;
-  softer.softening = {.over_tension = over_tension, .least = share_of_drag * drag_sum_};
+  softer.softening = {.over_tension = over_tension, .least = least};
   for (double ratio = first_ratio; ratio * softer.softening.least < hardest_ && !progress_.is_over();
        ratio *= hardening) {
     softer.softening.ratio = ratio;

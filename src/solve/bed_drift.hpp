@@ -28,7 +28,8 @@ public:
 
 private:
   bool arrive(Vec x);
-  void harden_in_stages(Vec x, double hardening);
+  /// @param least  of an element's stiffness in the first stage, over the first ratio [N]
+  void harden_in_stages(Vec x, double least, double hardening);
   void settle(Vec x, bool is_first);
   bool arrive(Vec x, const StaticGoal& goal);
 

@@ -223,6 +223,21 @@ void StaticForces::hold_drag(Vec x, double share) {
   check(VecAXPY(drag_, -share, scratch_));
 }
 
+double StaticForces::largest_turn(Vec x, Vec y) {
+  const partition::LocalNetwork& network = assembler_.network();
+  std::vector<Vector3> before(at(network.own_elements));
+  const system::LocalState& from = assembler_.observe(t_, x, v_, resting_);
+  for (int i = 0; i < network.own_elements; ++i) before[at(i)] = from.chord(network.elements[at(i)]).d;
+  double largest = 0;
+  const system::LocalState& to = assembler_.observe(t_, y, v_, resting_);
+  for (int i = 0; i < network.own_elements; ++i) {
+    const partition::LocalElement& e = network.elements[at(i)];
+    largest = std::max(largest, (to.chord(e).d - before[at(i)]).norm() / e.length);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, assembler_.communicator());
+  return largest;
+}
+
 std::vector<std::pair<int, double>> StaticForces::on_bed(Vec x) {
   const system::LocalState& state = assembler_.observe(t_, x, v_, resting_);
   const partition::LocalNetwork& network = assembler_.network();

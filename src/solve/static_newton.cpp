@@ -39,6 +39,10 @@ constexpr double cautious = 1e-4;
 /// Where less than this share of a correction is taken, the next one is made in a shorter pseudo-time.
 constexpr double short_step = 0.15;
 
+/// The most that a correction with a predicted tension changes an element's chord, over its unstretched length.  It
+/// searches along no line, and beyond this the prediction means nothing.
+constexpr double most_turn = 1;
+
 /// What keeps tangents definite.
 constexpr double first_shift = 0.01, largest_shift = 1e6, shift_growth = 10;   // [1/s], [1/s], 1
 
@@ -181,7 +185,7 @@ bool StaticNewton::factor_and_solve() {
 /// drag.
 double StaticNewton::search(Vec x, const StaticRule& rule, double now, bool searches) {
   const double before = -dot(step_, r_);
-  double share = 1;
+  double share = rule.kind == StaticRule::Kind::descent ? share_of_turn(x) : 1;
   for (int i = 0; i < 8; ++i) {
     check(VecWAXPY(trial_, share, step_, x));
     const double then = evaluate(rule, trial_, false);
@@ -192,6 +196,11 @@ double StaticNewton::search(Vec x, const StaticRule& rule, double now, bool sear
     share *= std::clamp(shorter, 0.1, 0.7);
   }
   return share;
+}
+
+double StaticNewton::share_of_turn(Vec x) {
+  check(VecWAXPY(trial_, 1, step_, x));
+  return std::min(1.0, most_turn / forces_.largest_turn(x, trial_));
 }
 
 double StaticNewton::evaluate(const StaticRule& rule, Vec x, bool with_tangent) {

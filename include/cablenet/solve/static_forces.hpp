@@ -74,6 +74,8 @@ public:
   /// What the loads alone leave: r without internal forces, and without the bed.
   void loads(Vec x, Vec r);
   TensionRange tensions(Vec x);
+  /// The most that an element's chord changes from x to y, over its unstretched length.  Any rank's.
+  double largest_turn(Vec x, Vec y);
   /// Of this rank's own elements, in their order.  [N]
   std::vector<double> element_tensions(Vec x);
   /// This rank's elements that push with more than `least` at x, by their numbers in the scene, and how much.  [N]

@@ -67,6 +67,7 @@ public:
 private:
   bool correct(Vec x, const system::StaticRule& rule, bool may_shift);
   double search(Vec x, const system::StaticRule& rule, double now, bool searches);
+  double share_of_turn(Vec x);
   bool factor_and_solve();
   bool is_final(double norm, double previous) const;
 
