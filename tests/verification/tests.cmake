@@ -37,3 +37,4 @@ cablenet_script_test(verification_yardstick verification/yardstick.py 60 verific
   --yardstick $<TARGET_FILE:yardstick_chain>)
 cablenet_script_test(verification_stiffness verification/stiffness.py 300 verification)
 cablenet_script_test(verification_pretension verification/pretension.py 300 verification)
+cablenet_script_test(jobs_stability verification/jobs_stability.py 300 verification)
