@@ -47,9 +47,13 @@ std::string describe(const EnergyReport& report) {
   return text;
 }
 
+double lost_share(const EnergyReport& report) {
+  return report.energy.instants < least_instants ? 0 : share(report.energy.now.dissipated, report.energy.moved);
+}
+
 std::string note_of_dissipation(const EnergyReport& report) {
-  const double taken = share(report.energy.now.dissipated, report.energy.moved);
-  if (taken <= most_dissipated || report.energy.instants < least_instants) return {};
+  const double taken = lost_share(report);
+  if (taken <= most_dissipated) return {};
   return fmt::format(
       "the step's formulas took {:.2g} % of the energy that moved: where that was motion, it is gone; shorter steps "
       "take less, and so does a larger time.spectral_radius",

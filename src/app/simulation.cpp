@@ -140,15 +140,19 @@ private:
     report_.scheme = solve::describe(time_, rule_);
     report_.linear_solver = dynamics_->linear_solver();
     if (rank_ == 0) progress.finish(report_.reached, report_.counts.steps, report_.counts.newton);
+    double lost = 0;
     if (const system::EnergySummary* const energy = assembler_->energy_summary()) {
       const EnergyReport found(*energy, scene_);
       if (scene_.output.energy || dynamics_->is_watched()) report_.energy = found;
       if (rank_ == 0 && report_.energy) fmt::print("{}\n", describe(found));
       add_note(report_, note_of_dissipation(found));
+      lost = lost_share(found);
     }
-    for (const std::string& text : tension_notes(scene_, network_, *assembler_)) add_note(report_, text);
-    if (const auto steps = dynamics_->step_findings())
-      for (const std::string& text : step_notes(*steps, report_.counts)) add_note(report_, text);
+    const std::optional<solve::StepFindings> steps = dynamics_->step_findings();
+    const double total_share = steps ? steps->total_share() : 0;
+    for (const std::string& text : tension_notes(scene_, network_, *assembler_, total_share)) add_note(report_, text);
+    if (steps)
+      for (const std::string& text : step_notes(*steps, report_.counts, lost)) add_note(report_, text);
     if (dynamics_->has_gained_energy())
       report_.message = fmt::format("at t = {:.9g} s {}", report_.reached, describe_gain(*report_.energy));
     else if (verdict == solve::Verdict::failed)

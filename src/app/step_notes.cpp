@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "cablenet/app/run_notes.hpp"
 
 namespace cablenet::app {
@@ -7,6 +9,8 @@ namespace {
 
 /// A period, or a step in water, may err by so much of the motion before it is worth a note.
 constexpr double most_of_motion = 0.03, most_in_water = 0.01;
+/// So may a whole run whose errors add up.  Some of them cancel.
+constexpr double most_of_run = 0.05;
 /// By so much it errs with the step that is recommended.
 constexpr double good_of_motion = 0.01, good_in_water = 0.001;
 
@@ -26,11 +30,27 @@ std::string too_long(const solve::StepFindings& steps) {
       percent(good));
 }
 
+/// Both errors are of second order.
+std::string adds_up_too_far(const solve::StepFindings& steps, double lag) {
+  const double share = steps.total_share() + lag;
+  const std::string took = lag > steps.total_share() ? ", most of it by what their formulas take of the energy," : "";
+  return fmt::format(
+      "the steps do not resolve this motion: in {} their errors add up{} to some {} of its way, which is {:.3g} m; "
+      "steps of {:.1g} s would come to {}",
+      steps.ways() > solve::StepFindings::counted_ways ? "ten of its periods" : "this run", took, percent(share),
+      steps.way, steps.step * std::sqrt(good_of_motion / share), percent(good_of_motion));
+}
+
 }   // namespace
 
-std::vector<std::string> step_notes(const solve::StepFindings& steps, const solve::Counts& counts) {
+std::vector<std::string> step_notes(const solve::StepFindings& steps, const solve::Counts& counts, double lost) {
   std::vector<std::string> notes;
-  if (steps.share() > (steps.adds_up() ? most_of_motion : most_in_water)) notes.push_back(too_long(steps));
+  if (steps.is_adaptive) return notes;
+  const double lag = steps.lag(std::abs(lost));
+  if (steps.share() > (steps.adds_up() ? most_of_motion : most_in_water))
+    notes.push_back(too_long(steps));
+  else if (steps.total_share() + lag > most_of_run)
+    notes.push_back(adds_up_too_far(steps, lag));
   const long attempts = counts.steps + counts.rejected;
   if (counts.rejected > most_rejected &&
       static_cast<double>(counts.rejected) > most_of_attempts * static_cast<double>(attempts))

@@ -21,6 +21,9 @@ constexpr double peak_factor = 1.5;
 /// The logarithm of the growth by which rounding, 1e-16 of a position, becomes a hundredth of it.
 constexpr double folding_limit = 32;
 
+/// Lines that push so little bend little.  Of what bends, errors that have grown by so much of its way are too large.
+constexpr double least_bending = 5, most_bent = 0.03, good_bent = 0.01;
+
 /// Two numbers that differ by less may be the same one, on another number of ranks.
 constexpr double tie = 1e-6;
 
@@ -31,16 +34,19 @@ std::string force(double newtons) {
 
 /// Per cable and net, of all its elements on all ranks.
 struct Extremes {
-  explicit Extremes(std::size_t spans) : push(spans, 0), largest(spans, 0), held(spans, 0), folding(spans, 0) {}
+  explicit Extremes(std::size_t spans)
+      : push(spans, 0), largest(spans, 0), held(spans, 0), folding(spans, 0), bending(spans, far) {}
 
+  static constexpr double far = 1e30;
   std::vector<double> push, largest, held, folding;   ///< as in ElementTension; a push is positive
+  std::vector<double> bending;                        ///< the least folding of any element: the whole line pushed
 };
 
 class TensionNotes {
 public:
   TensionNotes(const network::Network& network, std::size_t cables, system::Assembler& assembler);
 
-  std::vector<std::string> notes() const;
+  std::vector<std::string> notes(double total_share) const;
 
 private:
   using Measure = double (*)(const ElementTension&);
@@ -61,6 +67,7 @@ private:
   bool pushes(std::size_t span) const;
   void add_push(std::vector<std::string>& notes) const;
   void add_folding(std::vector<std::string>& notes) const;
+  void add_bending(std::vector<std::string>& notes, double total_share) const;
   void add_peak(std::vector<std::string>& notes) const;
 
   const network::Network& network_;
@@ -86,9 +93,12 @@ TensionNotes::TensionNotes(const network::Network& network, std::size_t cables, 
     raise(extremes_.largest, own_[i].largest);
     raise(extremes_.held, own_[i].held());
     raise(extremes_.folding, own_[i].most_folding);
+    extremes_.bending[span] = std::min(extremes_.bending[span], own_[i].most_folding);
   }
   for (auto* values : {&extremes_.push, &extremes_.largest, &extremes_.held, &extremes_.folding})
     MPI_Allreduce(MPI_IN_PLACE, values->data(), static_cast<int>(values->size()), MPI_DOUBLE, MPI_MAX, communicator_);
+  MPI_Allreduce(MPI_IN_PLACE, extremes_.bending.data(), static_cast<int>(extremes_.bending.size()), MPI_DOUBLE, MPI_MIN,
+                communicator_);
   for (std::size_t span = 0; span < network.spans.size(); ++span)
     largest_ = std::max({largest_, extremes_.largest[span], extremes_.push[span]});
 }
@@ -167,6 +177,22 @@ void TensionNotes::add_folding(std::vector<std::string>& notes) const {
       name(span), place(most), std::floor(folding[span] / std::log(10.0))));
 }
 
+/// A line that is shortened as a whole bends out, and what steps err by grows as its bends do.
+void TensionNotes::add_bending(std::vector<std::string>& notes, double total_share) const {
+  std::vector<double> bending(cables_, 0);
+  for (std::size_t span = 0; span < cables_; ++span)
+    if (pushes(span) && network_.spans[span].elements > 1) bending[span] = extremes_.bending[span];
+  if (bending.empty()) return;
+  const std::size_t span = worst(bending);
+  const double growth = std::exp(bending[span]), bent = growth * total_share;
+  if (bending[span] < least_bending || bending[span] >= folding_limit || bent <= most_bent) return;
+  notes.push_back(fmt::format(
+      "{} pushed in all its elements, so that it bends, and that makes errors grow {:.1g} times: the steps do not "
+      "resolve this motion, and lead it astray by {} of its way; try steps or a tolerance that are {:.1g} times as "
+      "long",
+      name(span), growth, bent > 1 ? "all" : fmt::format("some {:.2g} %", 100 * bent), std::sqrt(good_bent / bent)));
+}
+
 void TensionNotes::add_peak(std::vector<std::string>& notes) const {
   const std::size_t span = worst(extremes_.largest);
   const double peak = extremes_.largest[span], held = extremes_.held[span];
@@ -180,10 +206,11 @@ void TensionNotes::add_peak(std::vector<std::string>& notes) const {
                   name(span), force(peak), most.tension.largest_at, place(most), longer));
 }
 
-std::vector<std::string> TensionNotes::notes() const {
+std::vector<std::string> TensionNotes::notes(double total_share) const {
   std::vector<std::string> notes;
   add_push(notes);
   add_folding(notes);
+  add_bending(notes, total_share);
   add_peak(notes);
   return notes;
 }
@@ -191,9 +218,9 @@ std::vector<std::string> TensionNotes::notes() const {
 }   // namespace
 
 std::vector<std::string> tension_notes(const scene::Scene& scene, const network::Network& network,
-                                       system::Assembler& assembler) {
+                                       system::Assembler& assembler, double total_share) {
   if (network.elements.empty()) return {};
-  return TensionNotes(network, scene.cables.size(), assembler).notes();
+  return TensionNotes(network, scene.cables.size(), assembler).notes(total_share);
 }
 
 }   // namespace cablenet::app

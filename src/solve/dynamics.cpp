@@ -35,8 +35,8 @@ Dynamics::Dynamics(system::Assembler& assembler, const scene::Time& time, const 
   if (!time.tolerance || petsc::has_option("-ts_adapt_type", settings.prefix)) return;
   const double span = time.end - time.start, interval = settings.output_interval;
   const double longest = interval > 0 ? std::min(interval, span) : span;
-  control_.emplace(*time.tolerance, time_.step, longest, smallest_step * time_.step, stepper_.error_order());
-  stepper_.control_errors([this](const auto& error, double dt) { return control_->accepts(error(), dt); },
+  control_.emplace(*time.tolerance, time_.step, longest, smallest_step * time_.step, stepper_.local_error().order());
+  stepper_.control_errors([this](const auto& error, double dt) { return accepts(error(), dt); },
                           StepControl::refused_scale);
 }
 
@@ -55,17 +55,35 @@ void Dynamics::look_at_energy() {
   assembler_.look_at_energy();
 }
 
-/// Who adapts steps is told their errors, or has means of his own to judge them.
+/// Whose own means adapt the steps judges them by those.
 void Dynamics::take_notes() {
   assembler_.keep_tensions();
-  if (time_.tolerance || stepper_.user_adapts()) return;
+  if (stepper_.user_adapts()) return;
   survey_.emplace(assembler_.network());
+  stepper_.local_error().add_means_to(survey_->means());
+  if (time_.tolerance) return;
   stepper_.control_errors(
-      [this](const auto& error, double) {
-        if (StepSurvey::looks_at(counts_.steps)) survey_->add_error(error());
+      [this](const auto& error, double dt) {
+        survey(error, dt);
         return true;
       },
       1);
+}
+
+void Dynamics::survey(const AlphaStepper::Error& error, double dt) {
+  const bool is_sample = StepSurvey::looks_at(counts_.steps);
+  const bool is_event = survey_->is_event(counts_.steps, newton_.first_correction());
+  if (!is_sample && !is_event) return;
+  const double found = error();
+  is_sample ? survey_->add_sample(found, dt, assembler_.communicator(), is_event)
+            : survey_->add_event(dt, assembler_.communicator());
+}
+
+/// Of adaptive steps each is estimated, and stands for itself.
+bool Dynamics::accepts(double error, double dt) {
+  if (!control_->accepts(error, dt)) return false;
+  if (survey_) survey_->add_event(dt, assembler_.communicator());
+  return true;
 }
 
 /// M a0 = f(t0, x0, v0).
@@ -148,9 +166,9 @@ void Dynamics::explain_failure(double dt) {
   failure_ = newton_.has_converged() && control_ ? control_->refusal(stepper_.step().dt) : newton_.explain_failure(dt);
 }
 
-std::optional<StepFindings> Dynamics::step_findings() const {
+std::optional<StepFindings> Dynamics::step_findings() {
   if (!survey_) return std::nullopt;
-  return survey_->findings(stepper_.error_order(), assembler_.communicator());
+  return survey_->findings(stepper_.local_error().order(), control_.has_value(), assembler_.communicator());
 }
 
 void Dynamics::archive(Archive& archive) {

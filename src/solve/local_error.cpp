@@ -37,11 +37,21 @@ constexpr double conserving_constant = 1.0 / 12;
 
 Vector4 four(const Vector3& of) { return {of(0), of(1), of(2), 0}; }
 
+/// Where a rope is caught within a step, or let go, a force that does not conserve energy errs by more than in a smooth
+/// motion: what it gives and takes back differs.
+constexpr double caught_factor = 3;
+
 /// Of the attitude's unknowns.  Components that a body does not have are zero.
 Curve<Vector4> attitude_curve(const OpenStep& open, Rotation rotation, int first) {
   if (rotation == Rotation::quaternion) return open.curve<4>(first);
   const Curve<Vector3> angles = open.curve<3>(first);
   return {four(angles.v), four(angles.a), four(angles.jerk)};
+}
+
+/// A length on which a motion turns: a circle's radius, and a vibration's amplitude.  [m]
+double scale_of(const Vector3& v, const Vector3& jerk) {
+  const double size = jerk.norm();
+  return size > 0 ? v.norm() * std::sqrt(std::abs(v.dot(jerk))) / size : 0;
 }
 
 }   // namespace
@@ -62,21 +72,38 @@ double LocalError::of_nodes(const OpenStep& open) const {
   for (LocalNode node(0); open.network.is_owned(node); ++node) {
     const Curve<Vector3> path = open.curve<3>(open.network.begin[node].value());
     largest = std::max(largest, constant * weighed(path.v, path.jerk, open.step.dt));
+    if (means_ != nullptr) add_node(open, node, path);
     if (can_slacken_[node]) largest = std::max(largest, lasting * path.jerk.norm());
   }
   return largest;
 }
 
+void LocalError::add_node(const OpenStep& open, LocalNode node, const Curve<Vector3>& path) const {
+  const double dt = open.step.dt,
+               constant = constant_of(open.step) * (can_slacken_[node] && !conserves_ ? caught_factor : 1);
+  const Eigen::Map<const Vector3> end(open.x1 + open.network.begin[node].value());
+  means_->add_mass(node);
+  means_->add({means_->mass(node), constant * dt * dt * dt * path.jerk.norm(), scale_of(path.v, path.jerk),
+               (end - open.network.position[node]).norm(), path.v.norm()});
+}
+
+void LocalError::add_turn(const OpenStep& open, const partition::LocalBody& body, const Turning& turning) const {
+  const double dt = open.step.dt, reach = body.reach;
+  means_->add({means_->mass(body.node), reach * turning.constant * dt * dt * dt * turning.jerk.norm(),
+               reach * scale_of(turning.w, turning.jerk),
+               turned_way(body, open.x1 + open.network.begin[body.node].value() + 3), reach * turning.w.norm()});
+}
+
 /// Where the equations hold at the stage, the attitude's unknowns err as a node does.
-double LocalError::of_attitude(const OpenStep& open, Rotation rotation, int first, const Vector4& y0) const {
+Turning LocalError::of_attitude(const OpenStep& open, Rotation rotation, int first, const Vector4& y0) const {
   const auto turn = [&](const Vector4& change) { return bodies::angular_velocity(rotation, {y0, change, {}}); };
   const Curve<Vector4> curve = attitude_curve(open, rotation, first);
-  return constant_of(open.step) * weighed(turn(curve.v), turn(curve.jerk), open.step.dt);
+  return {constant_of(open.step), turn(curve.v), turn(curve.jerk)};
 }
 
 /// Of a conserving step.  The rotation vector dt (w0 + w1)/2 stands in the place of a node's way.
-double LocalError::of_turn(const OpenStep& open, std::size_t body, const bodies::Start& start, const Vector3& start_dw,
-                           const Vector4& y1) {
+Turning LocalError::of_turn(const OpenStep& open, std::size_t body, const bodies::Start& start, const Vector3& start_dw,
+                            const Vector4& y1) {
   const double dt = open.step.dt;
   const auto of_body = [body](std::vector<double>& values) { return Eigen::Map<Vector3>(values.data() + 3 * body); };
   const Vector3 w1 = bodies::end_by_turn(start, dt, y1), mean = 0.5 * (start.w + w1);
@@ -84,7 +111,7 @@ double LocalError::of_turn(const OpenStep& open, std::size_t body, const bodies:
   of_body(next_turns_) = (w1 - start.w) / dt;
   const Vector3 way = dt * (mean - start.w), now = of_body(turns_), before = of_body(turns_before_);
   const Curve<Vector3> turning(open.weights, way, mean, now, before);
-  return conserving_constant * weighed(mean, turning.jerk - mean.cross(turning.a), dt);
+  return {conserving_constant, mean, turning.jerk - mean.cross(turning.a)};
 }
 
 double LocalError::of_bodies(const OpenStep& open) {
@@ -103,9 +130,11 @@ double LocalError::of_bodies(const OpenStep& open) {
     const bodies::Start start = bodies::start_of(body.properties, read(open.x0), read(open.v0));
     const Vector3 start_dw = bodies::angular_velocity(rotation, {start.y, read(open.a0), {}});
     const bool turns = conserves && rotation == Rotation::quaternion;
-    const double angle =
+    Turning turning =
         turns ? of_turn(open, at(b), start, start_dw, read(open.x1)) : of_attitude(open, rotation, first, start.y);
-    if (!turns || unknown_turns_ == 0) largest = std::max(largest, body.reach * angle);
+    if (turns && unknown_turns_ > 0) turning.constant = 0;
+    largest = std::max(largest, body.reach * turning.constant * weighed(turning.w, turning.jerk, open.step.dt));
+    if (means_ != nullptr) add_turn(open, body, turning);
   }
   return largest;
 }
@@ -124,6 +153,7 @@ double LocalError::estimate(const AlphaStep& step, const partition::LocalNetwork
                             std::span<const double> growth, Vec x1) {
   is_estimated_ = true;
   if (can_slacken_.empty()) prepare(network);
+  if (means_ != nullptr) means_->begin();
   const JerkWeights weights(step, kept_, !growth.empty());
   const OpenStep open{step,
                       network,

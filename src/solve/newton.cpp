@@ -148,6 +148,7 @@ void Newton::begin_solve(const AlphaStep& step, const StepStart& start, Vec gues
   evaluations_ = 0;
   tangents_ = 0;
   progress_ = {};
+  first_correction_ = 0;
   tangent_at_ = {};
   reuse_.begin_solve(step.is_start() ? -step.dt : step.dt, attempt_ > 1);
   if (step.is_start()) return;
@@ -236,6 +237,7 @@ bool Newton::is_at_rounding(PetscInt iteration, double norm, double noise) {
 SNESConvergedReason Newton::test(PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm) {
   SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
   check(SNESConvergedDefault(snes_, iteration, xnorm, snorm, fnorm, &reason, nullptr));
+  if (iteration == 1) first_correction_ = snorm;
   const bool linear_and_solved = step_.is_start() && iteration >= 1;
   const double noise = this->noise();
   bool settled = !step_.is_start() && is_at_rounding(iteration, fnorm, noise);

@@ -17,6 +17,8 @@ struct EnergyReport {
 /// "energy: 12.3 J moved; damping took 3.1 J (25 %), ...; the balance closes to 1.2e-12".
 std::string describe(const EnergyReport& report);
 
+/// What the step's formulas took, over what moved; 0 where that is known by too few instants.
+double lost_share(const EnergyReport& report);
 /// "the step's formulas took 57 % of the energy that moved; ...", or nothing where they took little.
 std::string note_of_dissipation(const EnergyReport& report);
 

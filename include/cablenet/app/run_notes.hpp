@@ -11,11 +11,13 @@
 namespace cablenet::app {
 
 /// Of the steps: they failed often, or they are too long for the motion.
-std::vector<std::string> step_notes(const solve::StepFindings& steps, const solve::Counts& counts);
+/// @param lost  what the step's formulas have taken of the energy that moved, as a part of it
+std::vector<std::string> step_notes(const solve::StepFindings& steps, const solve::Counts& counts, double lost);
 
 /// Of the cables: some pushed, some folded, or a tension lasted one step.  Collective.
 /// @pre the assembler keeps tensions and has observed the run's end
+/// @param total_share  what all steps err, each by itself, over the motion's way (StepFindings)
 std::vector<std::string> tension_notes(const scene::Scene& scene, const network::Network& network,
-                                       system::Assembler& assembler);
+                                       system::Assembler& assembler, double total_share);
 
 }   // namespace cablenet::app

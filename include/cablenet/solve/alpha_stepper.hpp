@@ -76,7 +76,7 @@ public:
   AlphaWeights weights() const { return read_step(); }
   /// The weights and the length of the last attempt.
   const AlphaStep& step() const { return step_; }
-  int error_order() const { return local_error_.order(); }
+  LocalError& local_error() { return local_error_; }
 
   /// x, v, a.  Saving restarts, so that this run and one that resumes from the archive go on alike.
   void archive(Archive& archive);

@@ -44,8 +44,9 @@ public:
   /// Where (on any rank) the failed attempt's residual was worst or undefined.
   FailedPart failed_part() { return newton_.failed_part(outside_body_); }
 
-  /// How well the steps so far have followed the motion.  Nothing where they are adaptive, or no notes are taken.
-  std::optional<StepFindings> step_findings() const;
+  /// How well the steps so far have followed the motion.  Nothing where no notes are taken, or where
+  /// the user's -ts_adapt_type chooses them.
+  std::optional<StepFindings> step_findings();
 
   /// The scheme may gain energy, and the run ends where it does.
   bool is_watched() const { return is_watched_; }
@@ -61,6 +62,8 @@ public:
 
 private:
   void take_notes();
+  void survey(const AlphaStepper::Error& error, double dt);
+  bool accepts(double error, double dt);
   void follow_energy(const Settings& settings);
   void look_at_energy();
   bool gains_energy();
@@ -78,7 +81,7 @@ private:
   AlphaStepper stepper_;
   Schedule schedule_;
   std::optional<StepControl> control_;   ///< of adaptive steps
-  std::optional<StepSurvey> survey_;     ///< of steps that are not
+  std::optional<StepSurvey> survey_;     ///< where notes are taken
   Counts counts_;
   bool is_started_ = false, is_stopped_ = false;
   double last_step_ = 0;    ///< [s]

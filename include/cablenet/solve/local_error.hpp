@@ -8,6 +8,7 @@
 #include "cablenet/bodies/body_data.hpp"
 #include "cablenet/partition/local_network.hpp"
 #include "cablenet/solve/jerk.hpp"
+#include "cablenet/solve/motion_means.hpp"
 
 namespace cablenet::bodies {
 struct Start;
@@ -25,6 +26,13 @@ struct StepStart {
 };
 
 struct OpenStep;
+
+/// How a body turns in a step, of which a step errs by constant dt^3 |jerk|.
+struct Turning {
+  double constant;
+  Vector3 w;      ///< [rad/s]
+  Vector3 jerk;   ///< [rad/s^3]
+};
 
 /// The local error of a step: the distance by which this step alone leads a node or a body's attachments astray.
 ///   error of a node = |beta + (alpha_f - alpha_m)/2 - 1/6| dt^3 |x'''|
@@ -56,6 +64,8 @@ public:
   /// @param growth  of each unknown's kept acceleration in the step before [m/s^2]; empty where it is not to count
   double estimate(const AlphaStep& step, const partition::LocalNetwork& network, const StepStart& start,
                   std::span<const double> growth, Vec x1);
+  /// Each estimate from now on adds up here how the masses move, too.
+  void add_means_to(MotionMeans& means) { means_ = &means; }
   /// The power of the step's length that the estimate follows.
   int order() const { return longest_ > 0 ? 2 : 3; }
   /// The step is taken, whether it was estimated or not.
@@ -64,14 +74,17 @@ public:
 
 private:
   double weighed(const Vector3& v, const Vector3& jerk, double dt) const;
+  void add_node(const OpenStep& open, LocalNode node, const Curve<Vector3>& path) const;
+  void add_turn(const OpenStep& open, const partition::LocalBody& body, const Turning& turning) const;
   double of_nodes(const OpenStep& open) const;
   double of_bodies(const OpenStep& open);
-  double of_attitude(const OpenStep& open, bodies::Rotation rotation, int first, const bodies::Vector4& y0) const;
-  double of_turn(const OpenStep& open, std::size_t body, const bodies::Start& start, const Vector3& start_dw,
-                 const bodies::Vector4& y1);
+  Turning of_attitude(const OpenStep& open, bodies::Rotation rotation, int first, const bodies::Vector4& y0) const;
+  Turning of_turn(const OpenStep& open, std::size_t body, const bodies::Start& start, const Vector3& start_dw,
+                  const bodies::Vector4& y1);
 
   double longest_;   ///< over which a step's error counts [s]
   bool conserves_;
+  MotionMeans* means_ = nullptr;
   double axial_dissipation_;
   Table<LocalNode, bool> can_slacken_;   ///< of owned nodes
   KeptSteps kept_;

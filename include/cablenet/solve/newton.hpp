@@ -50,6 +50,8 @@ public:
   /// @param iterations  of all solves of the step
   void end_step(long iterations) { expected_iterations_ = iterations; }
 
+  /// Of the last solve: how far its first guess was off [m].  0: not at all.
+  double first_correction() const { return first_correction_; }
   /// Why the last solve failed.  @param dt  of the last attempt [s]
   std::string explain_failure(double dt);
   bool has_converged() const;
@@ -100,6 +102,7 @@ private:
   long tangents_ = 0;                             ///< of the running solve
   long expected_iterations_ = 1;                  ///< as many as the last step took
   double largest_coordinate_ = 0;                 ///< [m]
+  double first_correction_ = 0;                   ///< [m]
   int outside_element_ = -1;     ///< scene number of an element that lost its length in the running attempt
   int outside_body_ = -1;        ///< likewise of a body that turned out of its domain
   SolverNumber singular_node_;   ///< solver number: where the tangent was singular
