@@ -224,7 +224,7 @@ def hose():
     points = {"pin": HELD, "tip": {"position": [0, 0, -20]}}
     made = scene(kind, points, {"from": "pin", "to": "tip", "elements": 10}, 20, 0.1, 0.5, ["tip"])
     made["environment"]["fluid"] = water
-    return stored("hose", "neutral hose in a strong current", made, (0.02, 0.1, 0.5, 1), "tip")
+    return stored("hose", "neutral hose in a strong current", made, (0.02, 0.1, 0.25, 0.5), "tip")
 
 
 def light():
@@ -264,7 +264,7 @@ def turn():
         return (np.array([speed * straight, radius, 0]) + radius * turned,
                 speed * np.array([math.cos(a), math.sin(a), 0]), -speed**2 / radius * turned)
 
-    return stored("turn", "tow in a half turn", made, (0.05, 0.2, 1, 2), "tail", {"ship": law})
+    return stored("turn", "tow in a half turn", made, (0.05, 0.2, 0.5, 1), "tail", {"ship": law})
 
 
 ALL = {make.__name__: make for make in (

@@ -73,13 +73,17 @@ class Elements:
         self.sum[self.i, rows], self.sum[self.j, rows] = 1, -1
 
     def _drag(self, x, v, u):
-        """The water's force on each node, taken at the elements' middles. @param u  the elements' directions"""
+        """The water's force on each node: half of what is taken at the element's middle, and half of the couple by which
+        drag slows a turning rod. @param u  the elements' directions"""
         past = self.current - (v[self.i] + v[self.j]) / 2
         slide = (past * u).sum(axis=1, keepdims=True)
         cross = past - slide * u
         push = (self.across[:, None] * np.linalg.norm(cross, axis=1, keepdims=True) * cross
                 + self.along[:, None] * np.abs(slide) * slide * u) * self.length[:, None] / 2
-        return np.abs(self.sum) @ push
+        apart = v[self.j] - v[self.i]
+        apart -= (apart * u).sum(axis=1, keepdims=True) * u
+        couple = (self.across * self.length / 24)[:, None] * np.linalg.norm(cross, axis=1, keepdims=True) * apart
+        return np.abs(self.sum) @ push + self.sum @ couple
 
     def _accelerations(self, x, v, given):
         chord = x[self.j] - x[self.i]

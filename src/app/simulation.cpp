@@ -145,8 +145,9 @@ private:
       const EnergyReport found(*energy, scene_);
       if (scene_.output.energy || dynamics_->is_watched()) report_.energy = found;
       if (rank_ == 0 && report_.energy) fmt::print("{}\n", describe(found));
-      add_note(report_, note_of_dissipation(found));
-      lost = lost_share(found);
+      const std::string note = note_of_dissipation(found);
+      add_note(report_, note);
+      if (note.empty()) lost = lost_share(found);
     }
     const std::optional<solve::StepFindings> steps = dynamics_->step_findings();
     const double total_share = steps ? steps->total_share() : 0;
