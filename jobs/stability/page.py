@@ -51,7 +51,7 @@ def draw(folder, found, made, picked):
 def name_axes(axes, made, picked, first, rows):
     axes.set(xlim=(0, len(picked)), ylim=(rows, 0))
     axes.xaxis.tick_top()
-    axes.set_xticks(np.arange(len(picked)) + 0.5, [method.name for method in picked.values()], rotation=55, ha="left",
+    axes.set_xticks(np.arange(len(picked)) + 0.5, [name_of(method) for method in picked.values()], rotation=50, ha="left",
                     rotation_mode="anchor", fontsize=9)
     steps = [step for case in made.values() for step in case.steps]
     axes.set_yticks(np.arange(rows) + 0.5, [f"{step:g} s" for step in steps], fontsize=8)
@@ -104,6 +104,33 @@ def counts(found, picked):
     yield "| all | " + " | ".join(str(count[colour]) for colour in COLOURS) + " |"
 
 
+def alone(cell, found):
+    """Why the cell of the shortest step is not green."""
+    best = min((other for other in found if other.case == cell.case and other.step == cell.step
+                and np.isfinite(other.error)), key=lambda other: other.error)
+    if best.colour == "green":
+        return "not told; the scheme: others have less at this step"
+    return f"not told; all schemes err here, by {100 * best.error:.2g} % at least: neighbouring motions part"
+
+
+def why(cell, found, picked):
+    """What the run said, or what the cells of other steps show."""
+    if cell.reason:
+        return cell.reason
+    method = picked[cell.method]
+    shorter = [other for other in found if other.case == cell.case and np.isfinite(other.error)
+               and (picked[other.method].adaptive and other.method > cell.method if method.adaptive
+                    else other.method == cell.method and other.step < cell.step)]
+    if not shorter:
+        return alone(cell, found)
+    nearest = shorter[0] if method.adaptive else shorter[-1]
+    what = f"with {name_of(picked[nearest.method])}" if method.adaptive else f"with steps of {nearest.step:g} s"
+    kind = "the tolerance" if method.adaptive else "the step"
+    if nearest.error < 0.7 * cell.error:
+        return f"not told; {kind}: {100 * nearest.error:.2g} % {what}"
+    return f"not told; not {kind}: {100 * nearest.error:.2g} % {what}, too, as neighbouring motions part"
+
+
 def reasons(found, made, picked):
     for key, case in made.items():
         yield f"\n### {case.name}\n"
@@ -112,11 +139,11 @@ def reasons(found, made, picked):
         if not bad:
             yield "All cells are green."
             continue
-        yield "| method | step [s] | colour | error [%] | what the run said |"
+        yield "| method | step [s] | colour | error [%] | reason: what the run said, or what other steps show |"
         yield "|---|---|---|---|---|"
         for cell in bad:
             error = percent(cell.error).replace("<", "less than ").replace(">", "more than ") or "none"
-            reason = cell.reason.replace("|", "\\|") or "nothing about its accuracy"
+            reason = why(cell, found, picked).replace("|", "\\|")
             yield f"| {name_of(picked[cell.method])} | {cell.step:g} | {cell.colour} | {error} | {reason} |"
 
 

@@ -234,6 +234,8 @@ int Assembler::outside_body() const { return parts_->bodies().outside(); }
 /// The work of constant forces counts from the network's start, which statics may have moved.
 void Assembler::archive(Archive& archive) {
   archive.item("start", std::span(network_.position.data()->data(), 3 * network_.position.size()));
+  for (int b = 0; b < network_.own_bodies; ++b)
+    archive.item("start.attitude", std::span(network_.bodies[at(b)].start.y.data(), 4));
   parts_->prescribed.archive(archive);
   for_each_term(parts_->terms, [&](auto& term) { term.archive(archive); });
   if (parts_->accounts) parts_->accounts->archive(archive);
