@@ -21,8 +21,8 @@ constexpr double peak_factor = 1.5;
 /// The logarithm of the growth by which rounding, 1e-16 of a position, becomes a hundredth of it.
 constexpr double folding_limit = 32;
 
-/// Lines that push so little bend little.  Of what bends, errors that have grown by so much of its way are too large.
-constexpr double least_bending = 5, most_bent = 0.03, good_bent = 0.01;
+/// Lines that push so little bend little.  Of errors that have grown so far the motion shows a sixth.
+constexpr double least_bending = 5, most_bent = 0.2, good_bent = 0.05;
 
 /// Two numbers that differ by less may be the same one, on another number of ranks.
 constexpr double tie = 1e-6;
