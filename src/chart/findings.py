@@ -34,7 +34,14 @@ class Findings:
     def share(self, ladder, run):
         """What a run errs by in the size of a ladder alone."""
         shares = self.reference.share(ladder, run)
-        return max((self.reference.error(name, shares[name])[0] for name in self.told), default=float("nan"))
+        return max((self.reference.share_error(ladder, name, shares[name]) for name in self.told), default=float("nan"))
+
+    def errs_by_less(self, run, column):
+        """Whether the error that is told of a run is only a bound."""
+        return bool(column) and self.reference.is_bound(run, column)
+
+    def error_text(self, run, error, column):
+        return ("< " if self.errs_by_less(run, column) else "") + percent(error)
 
     @property
     def doubt(self):

@@ -56,11 +56,19 @@ class Ladder:
             return None
         return 2 * float(numpy.log(coarse / fine)) / (self.log_ratio(last - 1) + self.log_ratio(last))
 
+    def _taken_order(self, column, mask):
+        """The order by which the limit is taken; where none shows it is the method's."""
+        order = self.order(column, mask)
+        return ORDER[self.kind] if order is None else min(order, ORDER[self.kind])
+
+    def is_extrapolated(self, column, mask):
+        """Whether the limit is more than the finest rung."""
+        return self.last > 0 and self._taken_order(column, mask) >= LEAST_ORDER[self.kind]
+
     def correction(self, column, mask, last=None):
         """From the rung at `last`, or the finest, to the limit: a series."""
         last = self.last if last is None else last
-        order = self.order(column, mask)
-        order = ORDER[self.kind] if order is None else min(order, ORDER[self.kind])
+        order = self._taken_order(column, mask)
         if last < 1 or order < LEAST_ORDER[self.kind]:
             return numpy.zeros_like(self.rung(last, column))
         return self.step_to(last, column) / (numpy.exp(order * self.log_ratio(last)) - 1)

@@ -27,6 +27,10 @@ def listed(names, most=6):
     return ", ".join(names[:most]) + (f" and {len(names) - most} more" if len(names) > most else "")
 
 
+def counted(number, thing):
+    return f"{number} {thing}" + ("" if number == 1 else "s")
+
+
 def multiple(factor):
     """A factor in words: x 2, / 4."""
     return f"x {factor}" if factor >= 1 else f"/ {1 / factor}"

@@ -1,9 +1,11 @@
 """chart.csv has a row for each run, chart.yaml all that was found."""
 import csv
+import io
 
 import numpy
 import yaml
 
+from files import write_whole
 from table import notes
 
 
@@ -18,7 +20,8 @@ def run_record(findings, run):
     error, column = findings.error(run)
     record |= {"cost_s": findings.chooser.cost(run), "solve_cpu_s": run.cost, "process_cpu_s": min(run.process_cpu),
                "repetitions": len(run.process_cpu), "steps": run.steps, "newton_iterations": run.newton,
-               "error_rms": error, "error_largest": findings.largest_error(run), "worst": column}
+               "error_rms": error, "error_is_bound": findings.errs_by_less(run, column),
+               "error_largest": findings.largest_error(run), "worst": column}
     if survey.mesh_ladder is not None and run in survey.mesh_ladder.runs:
         record["mesh_error_rms"] = findings.share(survey.mesh_ladder, run)
     if any(run in ladder.runs for ladder in survey.ladders.values()):
@@ -46,18 +49,25 @@ def plain(value):
 def write_table(findings, records):
     columns = findings.reference.columns
     keys = list(dict.fromkeys(key for _, record in records for key in record))
-    with open(findings.given.folder / "chart.csv", "w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow([*keys, *(f"error_rms {name}" for name in columns)])
-        for run, record in records:
-            errors = findings.reference.errors(run) if run.is_finished else {}
-            writer.writerow([record.get(key, "") for key in keys] + [errors.get(name, [""])[0] for name in columns])
+    file = io.StringIO()
+    writer = csv.writer(file)
+    writer.writerow([*keys, *(f"error_rms {name}" for name in columns)])
+    for run, record in records:
+        errors = findings.reference.errors(run) if run.is_finished else {}
+        writer.writerow([record.get(key, "") for key in keys] + [errors.get(name, [""])[0] for name in columns])
+    write_whole(findings.given.folder / "chart.csv", file.getvalue())
+
+
+def left_out(findings, choice):
+    """{column that a row does not cover: what it errs by with the row's settings, as far as that is known}"""
+    errors = findings.reference.errors(choice.run) if choice.run else {}
+    return {name: errors.get(name, [None])[0] for name in choice.left_out}
 
 
 def write(findings):
     records = [(run, run_record(findings, run)) for run in findings.runner.all.values()]
     write_table(findings, records)
-    choices = [{"accuracy": choice.accuracy, "error": choice.error, "worst": choice.column, "left_out": choice.left_out,
+    choices = [{"accuracy": choice.accuracy, "error": choice.error, "worst": choice.column, "left_out": left_out(findings, choice),
                 "settings": run_record(findings, choice.run) if choice.run else None} for choice in findings.choices]
     content = {"scene": str(findings.given.scene), "cpu_s": findings.runner.spent, "budget_s": findings.runner.budget,
                "orders": findings.reference.orders(), "known_to": findings.doubt,
@@ -65,4 +75,4 @@ def write(findings):
                "yours": run_record(findings, findings.own), "cheapest": choices, "notes": notes(findings),
                "columns": column_records(findings.reference), "runs": [record for _, record in records]}
     text = yaml.safe_dump(plain(content), sort_keys=False, allow_unicode=True, width=120)
-    (findings.given.folder / "chart.yaml").write_text(text, encoding="utf-8")
+    write_whole(findings.given.folder / "chart.yaml", text)

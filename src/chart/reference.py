@@ -152,8 +152,18 @@ class Reference:
         return rms(inside), float(numpy.abs(inside).max(initial=0.0))
 
     def errors(self, run):
-        """{column: (rms, largest)} of a run."""
-        return {name: self.error(name, run.columns[name] - self.truth[name]) for name in self.columns}
+        """{column: (rms, largest)} of a run.  No error is told to be less than what the truth is known to."""
+        found = {name: self.error(name, run.columns[name] - self.truth[name]) for name in self.columns}
+        return {name: (max(mean, self.doubt[name]), max(largest, self.doubt[name])) for name, (mean, largest) in found.items()}
+
+    def is_bound(self, run, column):
+        """Whether a run errs by less than what the truth is known to, so that the told error is a bound."""
+        return self.error(column, run.columns[column] - self.truth[column])[0] <= self.doubt[column]
+
+    def share_error(self, ladder, column, share):
+        """What a share of an error is by the scale, and at least what the ladder's limit is known to."""
+        doubt = ladder.doubt(column, self.mask[column]) / self.scale[column]
+        return max(self.error(column, share)[0], doubt)
 
     def share(self, ladder, run):
         """{column: series}: what a run with all else as on a ladder errs by in the ladder's size."""
@@ -172,6 +182,11 @@ class Reference:
             if orders:
                 found[ladder.kind] = float(numpy.median(orders))
         return found
+
+    def extrapolated(self, ladder):
+        """(of how many columns the limit is extrapolated, how many the ladder changes); of those that tell of anything."""
+        moved = [name for name in self.told(MOST_DOUBT) if self._moves(ladder, name)]
+        return sum(ladder.is_extrapolated(name, self.mask[name]) for name in moved), len(moved)
 
     def _moves(self, ladder, column):
         steps = [rms(ladder.step_to(place, column)[self.mask[column]]) for place in range(1, len(ladder))]

@@ -1,6 +1,6 @@
 """What a chart prints: the table of the cheapest settings, where the scene stands, and what a reader has to know."""
 from findings import USUAL
-from messages import listed, multiple, percent, seconds, stepping_text
+from messages import counted, listed, multiple, percent, seconds, stepping_text
 from runs import FAILS, TOO_DEAR
 
 
@@ -15,14 +15,14 @@ def rows(findings):
         step = stepping_text(run.settings.stepping).removeprefix("step ")
         cost = seconds(findings.chooser.cost(run))
         yield (percent(choice.accuracy), f"{run.elements}{factor}", step, findings.scheme_text(run.settings), cost,
-               str(run.newton), percent(choice.error), worst_text(findings, choice))
+               str(run.newton), findings.error_text(run, choice.error, choice.column), worst_text(findings, choice))
 
 
 def worst_text(findings, choice):
     """The worst quantity, and how many were looked at where some cannot tell of this accuracy."""
-    left_out = len(choice.left_out)
-    known = len(findings.reference.columns) - left_out
-    return f"{choice.column} (of {known}; {left_out} known to less)" if left_out else choice.column
+    count = len(findings.reference.columns)
+    known = count - len(choice.left_out)
+    return f"{choice.column} (covers {known} of {count})" if known < count else choice.column
 
 
 def table(lines):
@@ -61,15 +61,21 @@ def own_text(findings, own):
 
 
 def reference_line(findings):
-    survey, finest = findings.survey, []
-    if survey.mesh_ladder is not None:
-        finest.append(f"elements {multiple(survey.mesh_ladder.runs[-1].settings.mesh)}")
-    if survey.step_ladder is not None:
-        finest.append(stepping_text(survey.step_ladder.runs[-1].settings.stepping))
+    finest = [finest_text(findings, ladder) for ladder in findings.reference.ladders]
     orders = [f"{order:.1f} in the {kind}" for kind, order in findings.reference.orders().items()]
-    return (f"reference: extrapolated from {' and from '.join(finest)}"
+    return (f"reference: {' and '.join(finest)}"
             + (f", observed orders {' and '.join(orders)}" if orders else "")
             + (f"; known to {percent(findings.doubt)}" if findings.told else "; no quantity is known to 10 % by it"))
+
+
+def finest_text(findings, ladder):
+    """The end of a ladder, and whether the truth is its limit or the finest run itself."""
+    settings = ladder.runs[-1].settings
+    end = f"elements {multiple(settings.mesh)}" if ladder.kind == "mesh" else stepping_text(settings.stepping)
+    extrapolated, moved = findings.reference.extrapolated(ladder)
+    if extrapolated == 0:
+        return f"{end} as it is"
+    return f"extrapolated from {end}" + (f" in {extrapolated} of {moved} quantities" if extrapolated < moved else "")
 
 
 def chaos_lines(findings):
@@ -104,11 +110,14 @@ def left_out_lines(findings):
                f"otherwise with other elements or steps{advice}")
     unknown = [name for name in reference.columns if name not in reference.told(0.1)]
     if unknown:
-        yield f"not converged, and left out everywhere: {listed(unknown)}"
+        yield f"not converged, and covered by no row: {listed(unknown)}"
     for choice in findings.choices:
         left = [name for name in choice.left_out if name not in unknown]
         if choice.run is not None and left:
-            yield f"{percent(choice.accuracy)} is judged without {listed(left)}"
+            errors = reference.errors(choice.run)
+            each = listed(f"{name} ({findings.error_text(choice.run, errors[name][0], name)})" for name in left)
+            yield (f"the row of {percent(choice.accuracy)} covers {len(reference.columns) - len(choice.left_out)} of "
+                   f"{len(reference.columns)} quantities. Not covered, because known to less, with what they err by: {each}")
 
 
 def scene_lines(findings):
@@ -119,18 +128,20 @@ def scene_lines(findings):
     elif not variants.has_history:
         yield "the scene's output.history is empty, and there is no body, free point or cable; looked at: the energies"
     if not variants.has_meshes:
-        yield "no cable has more than one element, so that elements are not changed" + (
-            "; those of nets are their twines" if variants.scene.names("nets") else "")
+        yield "no cable has more than one element, so that elements are not changed"
+    if variants.scene.names("nets"):
+        yield ("nets are as written in all runs: the side of a mesh is one element. What nets err by for that is in no "
+               "row; halve the meshes of a net and its twines' thickness to see it")
     if ladder is not None and ladder.kind == "step" and ladder.sizes[0] >= 0.999 * variants.unit:
         yield f"steps are no longer than the time between rows of the history, {variants.unit:.4g} s here"
 
 
 def run_lines(findings):
-    for status, words in ((FAILS, "fail"), (TOO_DEAR, "were cut off by the budget")):
+    for status, words in ((FAILS, "failed"), (TOO_DEAR, "cut off by the budget")):
         runs = findings.with_status(status)
         if runs:
             why = f": {runs[0].message}" if status == FAILS else "; --budget S allows more"
-            yield f"{len(runs)} runs {words}, as {findings.settings_text(runs[0].settings)}{why}"
+            yield f"{counted(len(runs), 'run')} {words}, {'as' if len(runs) > 1 else 'that with'} {findings.settings_text(runs[0].settings)}{why}"
 
 
 def notes(findings):
@@ -139,7 +150,7 @@ def notes(findings):
 
 def text(findings):
     done, spent = len(findings.runner.finished), seconds(findings.runner.spent)
-    lines = [f"{findings.given.scene}: {done} runs, {spent} of CPU; results in {findings.given.folder}",
+    lines = [f"{findings.given.scene}: {counted(done, 'run')}, {spent} of CPU; results in {findings.given.folder}",
              "error: root of the mean square over time, by the quantity's range; of the worst quantity",
              reference_line(findings), "", *table(rows(findings)), "", own_line(findings)]
     return "\n".join(lines + [f"note: {line}" for line in notes(findings)])
