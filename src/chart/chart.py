@@ -12,13 +12,16 @@ import picture
 import records
 import table
 from choice import Chooser
+from files import write_whole
 from findings import Findings
 from messages import NO_OUTPUT, NO_SOLUTION, Progress, Refusal, percent
 from runs import Runner
 from scene_text import SceneText
+from spread import own_part, run_part
 from survey import Survey
 from variants import Variants
 
+OUTPUTS = ("chart.png", "chart.svg", "chart.csv", "chart.yaml")
 ACCURACIES = (0.1, 0.01, 0.001, 0.0001)
 
 
@@ -46,9 +49,22 @@ def launcher(program, ranks):
     return ["mpirun", "-n", str(ranks), program]
 
 
+def check_outputs(given):
+    """Refuses before the first run what could not be written after the last one."""
+    for name in OUTPUTS:
+        if (given.folder / name).is_dir():
+            raise Refusal(f"{given.folder / name} is a folder, and the chart writes a file of that name; move it away", NO_OUTPUT)
+    if given.write is None:
+        return
+    if given.write.is_dir():
+        raise Refusal(f"--write {given.write} is a folder; name a file", NO_OUTPUT)
+    if not (given.write.resolve().parent.is_dir() and os.access(given.write.resolve().parent, os.W_OK)):
+        raise Refusal(f"--write {given.write} cannot be written: there is no such folder, or no right to it", NO_OUTPUT)
+
+
 @contextlib.contextmanager
-def own_folder(folder):
-    """Makes the chart's folder, and keeps other charts out of it."""
+def own_folder(folder, shared):
+    """Makes the chart's folder, and keeps other charts out of it; parts of one chart share it."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         lock = open(folder / ".lock", "w", encoding="utf-8")
@@ -56,24 +72,25 @@ def own_folder(folder):
         raise Refusal(f"{folder} cannot be written: {error.strerror}", NO_OUTPUT) from None
     with lock:
         try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            fcntl.flock(lock, (fcntl.LOCK_SH if shared else fcntl.LOCK_EX) | fcntl.LOCK_NB)
         except BlockingIOError:
-            raise Refusal(f"another chart is at work in {folder}", NO_OUTPUT) from None
+            raise Refusal(f"another chart, or a part of one, is at work in {folder}", NO_OUTPUT) from None
         yield
 
 
 def make_chart(program, given):
     scene = read_scene(program, given.scene)
-    if given.write and given.write.is_dir():
-        raise Refusal(f"--write {given.write} is a folder; name a file", NO_OUTPUT)
-    if given.write and not (given.write.resolve().parent.is_dir() and os.access(given.write.resolve().parent, os.W_OK)):
-        raise Refusal(f"--write {given.write} cannot be written: there is no such folder, or no right to it", NO_OUTPUT)
-    with own_folder(given.folder):
+    check_outputs(given)
+    with own_folder(given.folder, shared=given.part is not None):
         progress = Progress()
         variants = Variants(scene)
-        runner = Runner(launcher(program, given.ranks), variants, given.folder.resolve(), given.budget, progress)
+        runner = Runner(launcher(program, given.ranks), variants, given.folder.resolve(), given.budget, progress,
+                        is_part=given.part is not None)
+        survey = Survey(runner, variants, given.schemes)
+        if given.part:
+            return do_part(runner, survey, given, progress)
         try:
-            survey = Survey(runner, variants, given.schemes)
+            runner.take_of_parts(survey.grid())
             survey.explore()
             wanted = sorted({*ACCURACIES, *filter(None, [given.accuracy])}, reverse=True)
             chooser = Chooser(survey, wanted)
@@ -89,6 +106,16 @@ def make_chart(program, given):
         return write_scene(given, findings) if given.write else 0
 
 
+def do_part(runner, survey, given, progress):
+    with own_part(given.folder, given.part):
+        try:
+            said = run_part(runner, survey.grid(), given.part)
+        finally:
+            progress.finish()
+        print(said)
+    return 0
+
+
 def write_scene(given, findings):
     choice = findings.choice(given.accuracy)
     if choice.run is None:
@@ -97,6 +124,8 @@ def write_scene(given, findings):
     head = (f"# By cablenet chart: {percent(choice.error)} of the range of {choice.column}, the worst quantity, "
             f"for {percent(given.accuracy)}.\n")
     text = findings.survey.variants.written_text(choice.run.settings)
-    given.write.write_text(head + text, encoding="utf-8")
+    if given.write.exists() and not given.overwrite:
+        raise Refusal(f"--write {given.write} has come to be meanwhile; it is left as it is", NO_OUTPUT)
+    write_whole(given.write, head + text)
     print(f"{given.write}: the scene with these settings")
     return 0

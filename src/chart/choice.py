@@ -1,7 +1,7 @@
 """The cheapest settings for an accuracy: guessed from the ladders, then run.
 
-A guess adds the error of the mesh and that of the step, as series.  Its cost is that of the Newton iterations of the
-step's rung with the elements of the mesh's:  iterations (a + b elements), with a and b fitted to what was measured.
+A guess adds the error of the mesh and that of the step, as series.  Its cost is that of the Newton iterations of both
+rungs with the elements of the mesh's:  iterations (a + b elements), with a and b fitted to what was measured.
 """
 import dataclasses
 
@@ -101,7 +101,7 @@ class Chooser:
         """Runs guesses, from the cheapest on, until one reaches the accuracy.  @returns the cheapest that does"""
         is_wanted = family == self._families()[0] or family[0] in self.survey.schemes
         for cost, settings in self._guesses(family, accuracy):
-            if trials == 0 or (not is_wanted and best is not None and cost > self.rank(best) / WORTH):
+            if trials == 0 or (not is_wanted and best is not None and cost > self.rank(best)):
                 break
             trials -= settings not in self.runner.all
             run = self.runner.run(settings)
@@ -138,7 +138,11 @@ class Chooser:
         return Settings(mesh, step_run.settings.stepping if step_run else None)
 
     def _guessed_cost(self, step_run, mesh_run):
-        return self.fitted_cost((step_run or mesh_run).newton, (mesh_run or step_run).elements)
+        """With the iterations of the step's rung, more or less by what the mesh changes at its ladder's step."""
+        newton, common = (step_run or mesh_run).newton, self.reference.common.newton
+        if step_run and mesh_run and common:
+            newton *= mesh_run.newton / common
+        return self.fitted_cost(newton, (mesh_run or step_run).elements)
 
 
 def family_of(settings):

@@ -178,5 +178,7 @@ def draw(findings):
     title = findings.survey.variants.scene.value("title", default="") or findings.given.scene.name
     figure.suptitle(title, x=0.01, ha="left", fontweight="bold")
     for ending in ("png", "svg"):
-        figure.savefig(findings.given.folder / f"chart.{ending}", dpi=120)
+        part = findings.given.folder / f".chart.tmp.{ending}"
+        figure.savefig(part, dpi=120)
+        part.replace(findings.given.folder / f"chart.{ending}")
     plt.close(figure)

@@ -13,6 +13,7 @@ import yaml
 
 import history
 import messages
+from files import write_whole
 from scene_text import LOADER
 
 FINISHED, FAILS, REFUSED, TOO_DEAR = "finished", "fails", "refused", "too dear"
@@ -36,6 +37,7 @@ class Run:
     newton: int = 0
     steps: int = 0
     elements: int = 0
+    is_of_part: bool = False                        # a part of the grid was spread, and the budget does not count it
     times: object = None
     columns: dict = dataclasses.field(default_factory=dict)
 
@@ -59,22 +61,27 @@ class Runner:
     """Does runs, and knows what they have cost.
     @param program  words that start cablenet, mpirun's before them"""
 
-    def __init__(self, program, variants, folder, budget, progress):
+    def __init__(self, program, variants, folder, budget, progress, is_part=False):
         self.program, self.variants, self.folder = program, variants, folder
-        self.budget, self.progress = budget, progress
+        self.budget, self.progress, self.is_part = budget, progress, is_part
         self.all = {}
         built = os.stat(program[-1])
         self.version = f"{built.st_size} bytes of {built.st_mtime_ns}"
         # An array of threads in BLAS would cost more CPU than it saves.
         self.environment = {"OMP_NUM_THREADS": "1", **os.environ}
 
+    def _counted(self, run):
+        """What the budget counts of a run: [s] of each repetition."""
+        return run.process_cpu[1:] if run.is_of_part and not self.is_part else run.process_cpu
+
     @property
     def spent(self):
-        return sum(sum(run.process_cpu) for run in self.all.values())
+        return sum(sum(self._counted(run)) for run in self.all.values())
 
     @property
     def left(self):
-        return self.budget - self.spent
+        """For new runs.  Repetitions come after them, so that a chart that goes on with both decides as before."""
+        return self.budget - sum(sum(self._counted(run)[:1]) for run in self.all.values())
 
     @property
     def finished(self):
@@ -83,14 +90,14 @@ class Runner:
     def expected_cpu(self, settings):
         """What a run will take [s]: the time of the run with the next less work, and more by the ratio of the work.
         Nothing is known before the first run."""
-        known = sorted((self._work(run.settings), run.process_cpu[0]) for run in self.finished)
+        known = sorted((self.work(run.settings), run.process_cpu[0]) for run in self.finished)
         if not known:
             return 0.0
-        work, start = self._work(settings), min(cpu for _, cpu in known)
+        work, start = self.work(settings), min(cpu for _, cpu in known)
         done, cpu = max((pair for pair in known if pair[0] <= work), default=known[0])
         return start + (cpu - start) * max(1.0, work / done)
 
-    def _work(self, settings):
+    def work(self, settings):
         """Elements times steps; a tolerance's steps are those of its order, 2."""
         elements = max(1, self.variants.count(settings.mesh))
         stepping = settings.stepping
@@ -101,13 +108,14 @@ class Runner:
             if own:
                 near = min(own, key=lambda run: run.settings.stepping.tolerance)
                 return elements * near.steps * max(1.0, near.settings.stepping.tolerance / stepping.tolerance) ** 0.5
-        return elements / stepping.step
+        return elements * (self.variants.end - self.variants.start) / stepping.step
 
     def run(self, settings, limit=math.inf):
         """The run with these settings, done now or kept.
         @param limit  what it may take [s]; one that takes more, or more than is left, is TOO_DEAR and not done"""
-        if settings in self.all and self.all[settings].status != TOO_DEAR:
-            return self.all[settings]
+        before = self.all.get(settings)
+        if before is not None and (before.status != TOO_DEAR or before.process_cpu):
+            return before
         text = self.variants.run_text(settings)
         folder = self.folder / "runs" / name_of(settings)
         found = self._kept(settings, folder, text)
@@ -118,12 +126,19 @@ class Runner:
         self.all[settings] = found
         return found
 
+    def take_of_parts(self, grid):
+        """Takes the runs of a grid that parts have left."""
+        for settings in grid:
+            run = self._kept(settings, self.folder / "runs" / name_of(settings), self.variants.run_text(settings))
+            if run is not None and run.is_of_part:
+                self.all[settings] = run
+
     def repeat(self, run):
         """Measures a short run's time again, while the budget has room."""
         if not run.is_finished:
             return
         first = run.process_cpu[0]
-        while len(run.process_cpu) < REPETITIONS and first < SHORT and 2 * first < self.left:
+        while len(run.process_cpu) < REPETITIONS and first < SHORT and 2 * first < self.budget - self.spent:
             self._start(run, self.variants.run_text(run.settings))
 
     def _start(self, run, text):
@@ -132,7 +147,7 @@ class Runner:
         shutil.rmtree(run.folder, ignore_errors=not run.folder.exists())
         run.folder.mkdir(parents=True)
         (run.folder / "scene.yaml").write_text(text, encoding="utf-8")
-        limit = max(1, int(self.left))
+        limit = self._limit()
         with open(run.folder / "log.txt", "w", encoding="utf-8") as log:
             process = subprocess.Popen(
                 [*self.program, "run", "scene.yaml", "-o", "."], cwd=run.folder, stdout=log, stderr=log,
@@ -144,6 +159,10 @@ class Runner:
             for path in run.folder.glob(pattern):
                 path.unlink()
         self._keep(run, text)
+
+    def _limit(self):
+        """What the system lets a run take [s]; it counts whole seconds."""
+        return max(1, int(self.left))
 
     def _conclude(self, run, status):
         """Takes what a run has left behind."""
@@ -162,11 +181,10 @@ class Runner:
             run.times, run.columns = history.read(run.folder / "history.csv")
 
     def _keep(self, run, text):
+        run.is_of_part = run.is_of_part or self.is_part
         kept = {**self._identity(text), "status": run.status, "message": run.message, "process_cpu": run.process_cpu,
-                "solve_cpu": run.solve_cpu}
-        part = run.folder / "cost.yaml.tmp"
-        part.write_text(yaml.safe_dump(kept), encoding="utf-8")
-        part.rename(run.folder / "cost.yaml")
+                "solve_cpu": run.solve_cpu, "part": run.is_of_part}
+        write_whole(run.folder / "cost.yaml", yaml.safe_dump(kept))
 
     def _identity(self, text):
         """What a kept run must have in common with one that is wanted."""
@@ -180,9 +198,11 @@ class Runner:
         except (OSError, yaml.YAMLError):
             return None
         wanted = self._identity(text)
-        if not isinstance(kept, dict) or {key: kept.get(key) for key in wanted} != wanted or kept["status"] == TOO_DEAR:
+        if not isinstance(kept, dict) or {key: kept.get(key) for key in wanted} != wanted:
             return None
-        run = Run(settings, folder, kept["status"], kept["message"], kept["process_cpu"])
+        if kept["status"] == TOO_DEAR and kept["process_cpu"][0] < 0.9 * self._limit():
+            return None
+        run = Run(settings, folder, kept["status"], kept["message"], kept["process_cpu"], is_of_part=kept.get("part", False))
         if run.is_finished:
             self._conclude(run, 0)
             run.solve_cpu = kept["solve_cpu"]

@@ -8,26 +8,40 @@ import numpy
 
 import history
 from ladder import LEAST_ORDER, Ladder, rms
-from messages import NO_SOLUTION, Refusal, seconds
+from messages import NO_SOLUTION, Refusal, counted, seconds
 from reference import Reference
 from runs import TOO_DEAR
 from variants import Settings, Stepping
 
 MESHES = [fractions.Fraction(1, 4), fractions.Fraction(1, 2), fractions.Fraction(1), fractions.Fraction(2),
           fractions.Fraction(4)]
+FINER_MESHES = [fractions.Fraction(8), fractions.Fraction(16)]
 COARSEST_MESH = fractions.Fraction(1, 32)
 FINEST_STEP = -3                       # a power of 2 of the scene's step
 TOLERANCES = range(3, -4, -1)          # powers of 4 of the scene's tolerance
 RELATIVE_TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)      # of the largest range of a position
 
+# A ladder of fewer rungs does not show whether it converges well.
+ENOUGH_RUNGS = 4
+
 # Shares of the budget: of each of the two ladders that lead to the reference, of the run that checks it, and of each
-# other family.
-LADDER_SHARE, CHECK_SHARE, FAMILY_SHARE = 0.35, 0.15, 0.1
+# other family, of a mesh that is finer than those of the grid.
+LADDER_SHARE, CHECK_SHARE, FAMILY_SHARE, FINER_SHARE = 0.3, 0.1, 0.08, 0.08
 
 # Meshes are compared at a step that errs by no more than this, or by the second where that is too dear.  A ladder ends
 # where it errs by the third.
 GOOD_STEP, FAIR_STEP, SMALL = 1e-3, 0.01, 3e-5
 COARSE = 0.1
+
+
+# A chart of the least use takes so many times what its cheapest run does.
+CHART_OF_RUN = 40
+
+
+def rounded_up(value):
+    """With two digits."""
+    unit = 10.0 ** max(0, numpy.floor(numpy.log10(value)) - 1)
+    return numpy.ceil(value / unit) * unit
 
 
 class Survey:
@@ -39,7 +53,19 @@ class Survey:
         self.ladders = {}                             # {family: ladder of steps}; that of the scene comes first
         self.mesh_ladder = self.step_ladder = None
         self.schemes = schemes
+        self.planned = {}                             # {kind of ladder: its rungs}, whether there is a budget or not
         self.reference = None
+
+    def grid(self):
+        """The settings of all meshes with all steppings that are known without a run."""
+        if self.variants.is_static:
+            steppings = [None]
+        else:
+            own = self.own.stepping
+            steppings = self._tolerances() if own.tolerance else self._steps(own.step, "")
+            steppings += [one for scheme in self.schemes for one in self._steps(own.step, scheme)]
+        meshes = MESHES if self.variants.has_meshes else [fractions.Fraction(1)]
+        return [Settings(mesh, stepping) for mesh in meshes for stepping in steppings]
 
     def explore(self):
         if not self.variants.is_static:
@@ -73,32 +99,45 @@ class Survey:
         done, finished = list(self.runner.all.values()), len(self.runner.finished)
         if any(run.status == TOO_DEAR for run in done):
             if not finished:
-                raise Refusal(f"a budget of {self.runner.budget:.4g} s is too small: the cheapest run takes more, and "
-                              f"a chart some 20 times of that; give it --budget {20 * self.runner.budget:.0f}")
+                least = max(run.process_cpu[0] / max(self._progress(run), 1e-3) for run in done if run.process_cpu)
+                raise Refusal(f"a budget of {self.runner.budget:.4g} s is too small: the cheapest run takes some "
+                              f"{seconds(least)}, and a chart {CHART_OF_RUN} times of that; "
+                              f"give it --budget {rounded_up(CHART_OF_RUN * least):.0f}")
             raise Refusal(f"a budget of {self.runner.budget:.4g} s is too small: {seconds(self.runner.spent)} of CPU "
-                          f"went into {finished} runs, which are kept, and a chart needs three in each ladder; "
-                          f"give it --budget {self._enough():.0f}")
+                          f"went into {counted(finished, 'run')} that are kept, and a chart needs three in each ladder; "
+                          f"give it --budget {rounded_up(self._enough()):.0f}")
         why = next((f": {run.message}" for run in done if run.message), "")
-        raise Refusal(f"{finished} of {len(done)} runs got through, too few for a chart{why}", NO_SOLUTION)
+        raise Refusal(f"{finished} of {counted(len(done), 'run')} got through, too few for a chart{why}", NO_SOLUTION)
 
     def _enough(self):
-        """A budget that would do [s]."""
-        dear = [self.runner.expected_cpu(run.settings) for run in self.runner.all.values() if run.status == TOO_DEAR]
-        return numpy.ceil(4 * (self.runner.spent + sum(dear)))
+        """A budget with which each ladder gets four rungs [s]."""
+        expected = [sum(self.runner.expected_cpu(rung) for rung in rungs[:4]) for rungs in self.planned.values()]
+        return max(1.5 * max(expected, default=0.0) / LADDER_SHARE, 2 * self.runner.budget)
+
+    def _progress(self, run):
+        """Which share of its time a run that was cut off has got through."""
+        path = run.folder / "history.csv"
+        if self.variants.is_static or not path.exists():
+            return 0.0
+        times, _ = history.read(path)
+        return (times[-1] - times[0]) / (self.variants.end - self.variants.start) if len(times) else 0.0
 
     # Ladders.
 
     def _climb(self, kind, settings, size, share):
         """@param settings  of all rungs, coarse to fine   @param size  of a run"""
         allowance = share * self.runner.budget
+        self.planned[kind] = settings
         runs, spent = [], 0.0
         for rung in settings:
             is_new = rung not in self.runner.all
             run = self.runner.run(rung, allowance - spent)
-            spent += run.process_cpu[0] if is_new and run.process_cpu else 0.0
+            spent += run.process_cpu[0] if is_new and run.process_cpu and not run.is_of_part else 0.0
             if run.status == TOO_DEAR:
                 break
-            if run.is_finished and (not runs or size(run) < size(runs[-1])):
+            if run.is_finished and runs and kind == "tolerance" and run.steps <= runs[-1].steps:
+                runs[-1] = run                       # the longest step that is allowed anyway
+            elif run.is_finished and (not runs or size(run) < size(runs[-1])):
                 runs.append(run)
             if len(runs) > 2 and self._error(Ladder(kind, map(size, runs), runs), len(runs) - 1) < SMALL:
                 break
@@ -128,9 +167,12 @@ class Survey:
 
     def _climb_steps(self):
         rungs = self._tolerances() if self.own.stepping.tolerance else self._steps(self.own.stepping.step, "")
-        self.mesh = self._mesh_of_steps(rungs)
         kind = "tolerance" if self.own.stepping.tolerance else "step"
-        ladder = self._climb(kind, [Settings(self.mesh, rung) for rung in rungs], self._step_size(kind), LADDER_SHARE)
+        for self.mesh in self._meshes_of_steps(rungs):
+            settings = [Settings(self.mesh, rung) for rung in rungs]
+            ladder = self._climb(kind, settings, self._step_size(kind), LADDER_SHARE)
+            if len(ladder) >= min(ENOUGH_RUNGS, len(rungs)):
+                break
         self.ladders[self.own.stepping.family] = self.step_ladder = ladder
         if not len(ladder):
             return
@@ -147,18 +189,20 @@ class Survey:
             good -= 1
         return ladder.runs[good]
 
-    def _mesh_of_steps(self, rungs):
-        """As fine as the scene's, where the ladder's middle is within the budget."""
+    def _meshes_of_steps(self, rungs):
+        """The meshes that are tried for the ladder of steps: the finest with which its middle is within the budget, the
+        scene's, and the coarsest.  With a coarse mesh steps err by more, as where single nodes hit the bed."""
         if not self.variants.has_meshes:
-            return fractions.Fraction(1)
+            return [fractions.Fraction(1)]
         self.runner.run(Settings(MESHES[0], rungs[0]))
-        middle = rungs[min(4, len(rungs) - 1)]
+        middle = rungs[min(ENOUGH_RUNGS, len(rungs) - 1)]
         allowed = 0.5 * LADDER_SHARE * self.runner.budget
-        fits = (mesh for mesh in MESHES[2::-1] if self.runner.expected_cpu(Settings(mesh, middle)) <= allowed)
-        return next(fits, MESHES[0])
+        fits = [mesh for mesh in reversed(MESHES) if self.runner.expected_cpu(Settings(mesh, middle)) <= allowed]
+        finest = fits[0] if fits else MESHES[0]
+        return [finest, *(mesh for mesh in (MESHES[2], MESHES[0]) if mesh < finest)]
 
     def _step_size(self, kind):
-        span = self.variants.scene.number("time", "end") - self.variants.scene.number("time", "start", default=0.0)
+        span = self.variants.end - self.variants.start
         return (lambda run: span / run.steps) if kind == "step" else (lambda run: run.settings.stepping.tolerance)
 
     def _steps(self, step, scheme):
@@ -181,6 +225,8 @@ class Survey:
         rungs = [Settings(mesh, self.stepping) for mesh in MESHES]
         size = lambda run: 1 / run.elements
         ladder = self._climb("mesh", rungs, size, LADDER_SHARE)
+        if ladder.runs and ladder.runs[-1].settings.mesh == MESHES[-1]:
+            ladder = self._climb_higher(ladder, size)
         while len(ladder) > 2 and self._error(ladder, 0) < COARSE:
             coarser = ladder.runs[0].settings.mesh / 2
             if coarser < COARSEST_MESH or self.variants.count(coarser) == self.variants.count(2 * coarser):
@@ -189,6 +235,18 @@ class Survey:
             if not run.is_finished:
                 break
             ladder = Ladder("mesh", [size(run), *ladder.sizes], [run, *ladder.runs])
+        return ladder
+
+    def _climb_higher(self, ladder, size):
+        """Finer meshes than those of the grid, where they cost little and something is not known well yet."""
+        for mesh in FINER_MESHES:
+            settings = Settings(mesh, self.stepping)
+            if len(ladder) < 3 or self._error(ladder, ladder.last) < SMALL:
+                break
+            run = self.runner.run(settings, FINER_SHARE * self.runner.budget)
+            if not run.is_finished or size(run) >= ladder.sizes[-1]:
+                break
+            ladder = Ladder("mesh", [*ladder.sizes, size(run)], [*ladder.runs, run])
         return ladder
 
     # Other families.
@@ -206,6 +264,9 @@ class Survey:
             self._climb_family("step", self._steps(base, scheme))
 
     def _climb_family(self, kind, rungs):
+        if kind == "tolerance" and self.variants.has_meshes:
+            # How many steps a tolerance takes is not known before the first run.
+            self.runner.run(Settings(MESHES[0], rungs[0]), FAMILY_SHARE * self.runner.budget)
         ladder = self._climb(kind, [Settings(self.mesh, rung) for rung in rungs], self._step_size(kind), FAMILY_SHARE)
         if rungs:
             self.ladders[rungs[0].family] = ladder

@@ -96,6 +96,14 @@ class Variants:
         self.unit = None if self.is_static else min(self.interval, scene.number("output", "interval") or self.interval)
 
     @property
+    def start(self):
+        return self.scene.number("time", "start", default=0.0)
+
+    @property
+    def end(self):
+        return self.scene.number("time", "end")
+
+    @property
     def has_meshes(self):
         return any(number > 1 for number in self.elements.values())
 
