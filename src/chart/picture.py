@@ -5,6 +5,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 from matplotlib import ticker
 
+import labels
 from choice import family_of
 from messages import percent, seconds, stepping_text
 
@@ -63,40 +64,55 @@ def draw_costs(axes, findings):
         if not points:
             continue
         axes.plot(*zip(*points), marker, color=colour, markerfacecolor="none", markersize=5, alpha=0.5)
+        mark_bounds(axes, findings, runs)
         axes.plot(*zip(*front(points)), marker=marker, color=colour, markersize=6, label=family_name(findings, family))
     axes.set_xscale("log")
     axes.set_yscale("log")
-    mark_choices(axes, findings)
+    set_limits(axes, findings)
     if findings.own.is_finished:
         place = (findings.chooser.cost(findings.own), max(findings.error(findings.own)[0], LEAST_DRAWN))
         axes.plot(*place, "*", color="black", markersize=15, markeredgecolor="white", zorder=5,
                   label="the scene as written")
     axes.axhspan(LEAST_DRAWN / 10, findings.doubt, color="#dddddd", zorder=0,
-                 label=f"the truth is known to {percent(findings.doubt)} only")
+                 label=f"not known: the truth is known to {percent(findings.doubt)}, ▽ errs by less")
     axes.set_xlabel("cost: CPU seconds of solving")
     axes.set_ylabel("error: rms over time / range, of the worst quantity")
     percent_axis(axes.yaxis)
     axes.xaxis.set_major_formatter(ticker.FuncFormatter(lambda value, _: seconds(value)))
-    axes.legend(fontsize=8, loc="best", framealpha=0.9)
+    axes.legend(fontsize=8, loc="upper right", framealpha=0.9)
+
+
+def mark_bounds(axes, findings, runs):
+    """A triangle below what errs by less than can be told."""
+    for run in runs:
+        error, column = findings.error(run)
+        if findings.errs_by_less(run, column):
+            axes.annotate("▽", (findings.chooser.cost(run), max(error, LEAST_DRAWN)), xytext=(0, -6), fontsize=7, ha="center",
+                          va="top", color=GREY, textcoords="offset points")
+
+
+def set_limits(axes, findings):
+    """Room for all points, and for words beside them."""
+    points = [(findings.chooser.cost(run), findings.error(run)[0]) for run in findings.runner.finished]
+    costs, errors = zip(*points)
+    bottom, top = 0.3 * max(min(errors), findings.doubt, LEAST_DRAWN), 3 * min(1.0, max(errors))
+    axes.set_ylim(bottom, top * (top / bottom) ** 0.2)
+    axes.set_xlim(0.3 * min(costs), 3 * max(costs) * (max(costs) / min(costs)) ** 0.2)
 
 
 def mark_choices(axes, findings):
-    """The cheapest settings for each accuracy, in words."""
-    points = [(findings.chooser.cost(run), findings.error(run)[0]) for run in findings.runner.finished]
-    costs, errors = zip(*points)
-    axes.set_ylim(max(0.4 * min(errors), 0.3 * max(findings.doubt, LEAST_DRAWN)), 3 * min(1.0, max(errors)))
-    axes.set_xlim(0.6 * min(costs), 3 * max(costs) * (max(costs) / min(costs)) ** 0.2)
+    """The cheapest settings for each accuracy, in words that keep clear of points, lines and each other."""
+    axes.figure.draw_without_rendering()      # lays the axes out, for good
+    axes.figure.set_layout_engine("none")
+    taken = labels.obstacles(axes)
     marks = {}
     for choice in findings.choices:
         if choice.run is not None:
             axes.axhline(choice.accuracy, color=GREY, linewidth=0.8, linestyle=":", zorder=0)
             marks.setdefault(choice.run.settings, (choice.run, []))[1].append(percent(choice.accuracy))
-    for place, (run, accuracies) in enumerate(marks.values()):
-        offset = (9, 5) if place % 2 == 0 else (9, -12)
+    for run, accuracies in marks.values():
         point = (findings.chooser.cost(run), max(findings.error(run)[0], LEAST_DRAWN))
-        words = f"{', '.join(accuracies)}: {settings_words(run)}"
-        axes.annotate(words, point, textcoords="offset points", xytext=offset, fontsize=8,
-                      bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.5})
+        labels.place(axes, f"{', '.join(accuracies)}: {settings_words(run)}", point, taken)
 
 
 def settings_words(run):
@@ -172,11 +188,14 @@ def draw(findings):
                          "axes.spines.top": False, "axes.spines.right": False})
     figure = plt.figure(figsize=(11, 6), layout="constrained")
     grid = figure.add_gridspec(2, 2, width_ratios=(1.7, 1))
-    draw_costs(figure.add_subplot(grid[:, 0]), findings)
+    costs = figure.add_subplot(grid[:, 0])
+    draw_costs(costs, findings)
     draw_meshes(figure.add_subplot(grid[0, 1]), findings)
     draw_steps(figure.add_subplot(grid[1, 1]), findings)
     title = findings.survey.variants.scene.value("title", default="") or findings.given.scene.name
     figure.suptitle(title, x=0.01, ha="left", fontweight="bold")
+    if costs.get_legend():
+        mark_choices(costs, findings)
     for ending in ("png", "svg"):
         part = findings.given.folder / f".chart.tmp.{ending}"
         figure.savefig(part, dpi=120)

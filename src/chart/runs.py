@@ -93,7 +93,8 @@ class Runner:
         known = sorted((self.work(run.settings), run.process_cpu[0]) for run in self.finished)
         if not known:
             return 0.0
-        work, start = self.work(settings), min(cpu for _, cpu in known)
+        start = max(0.0, min(run.process_cpu[0] - run.first_cost for run in self.finished))
+        work = self.work(settings)
         done, cpu = max((pair for pair in known if pair[0] <= work), default=known[0])
         return start + (cpu - start) * max(1.0, work / done)
 

@@ -3,6 +3,7 @@
 Each ladder is climbed from its cheap end, until its own error is small, it ends, or its part of the budget is used.
 """
 import fractions
+import itertools
 
 import numpy
 
@@ -190,16 +191,20 @@ class Survey:
         return ladder.runs[good]
 
     def _meshes_of_steps(self, rungs):
-        """The meshes that are tried for the ladder of steps: the finest with which its middle is within the budget, the
-        scene's, and the coarsest.  With a coarse mesh steps err by more, as where single nodes hit the bed."""
+        """The meshes that are tried for the ladder of steps, fine to coarse.  With a coarse mesh steps err by more, as
+        where single nodes hit the bed."""
         if not self.variants.has_meshes:
             return [fractions.Fraction(1)]
-        self.runner.run(Settings(MESHES[0], rungs[0]))
-        middle = rungs[min(ENOUGH_RUNGS, len(rungs) - 1)]
+        return itertools.chain((mesh for mesh in MESHES[:0:-1] if self._is_within(mesh, rungs)), MESHES[:1])
+
+    def _is_within(self, mesh, rungs):
+        """Whether the ladder's middle is within its part of the budget with a mesh, by what the longest step takes."""
+        first, middle = (Settings(mesh, rungs[place]) for place in (0, min(ENOUGH_RUNGS, len(rungs)) - 1))
         allowed = 0.5 * LADDER_SHARE * self.runner.budget
-        fits = [mesh for mesh in reversed(MESHES) if self.runner.expected_cpu(Settings(mesh, middle)) <= allowed]
-        finest = fits[0] if fits else MESHES[0]
-        return [finest, *(mesh for mesh in (MESHES[2], MESHES[0]) if mesh < finest)]
+        self.runner.run(Settings(MESHES[0], rungs[0]))
+        if self.runner.expected_cpu(first) > allowed / 2:
+            return False
+        return self.runner.run(first).status != TOO_DEAR and self.runner.expected_cpu(middle) <= allowed
 
     def _step_size(self, kind):
         span = self.variants.end - self.variants.start
