@@ -13,6 +13,9 @@ from variants import Settings
 # So many guesses are run for an accuracy and a family, and so much may a guess err by more than is asked for.
 TRIALS, HOPE = 4, 1.3
 
+# From what reaches an accuracy, cheaper neighbours are tried at most so many times.
+DESCENTS = 4
+
 # What takes less is too short to be measured well, and is told by the fit [s].
 SHORTEST = 0.05
 
@@ -89,10 +92,32 @@ class Chooser:
         best = None
         for family in self._families():
             best = self._try(family, accuracy, best, trials)
+        if best is not None and trials:
+            best = self._descend(best, accuracy)
         if best is None:
             nearest = min(self.runner.finished, key=lambda run: self.measured(run, accuracy)[0])
             return Choice(accuracy, None, *self.measured(nearest, accuracy), left_out, nearest)
         return Choice(accuracy, best, *self.measured(best, accuracy), left_out)
+
+    def _descend(self, best, accuracy):
+        """Goes from a run to its cheaper neighbours, as long as they reach the accuracy: errors of mesh and step do not
+        quite add up.  @returns the last that does"""
+        for _ in range(DESCENTS):
+            tried = [self.runner.run(settings) for settings in self._coarser(best.settings)]
+            better = [run for run in tried if run.is_finished and self.rank(run) < self.rank(best)
+                      and self._reaches(run, accuracy)]
+            if not better:
+                break
+            best = min(better, key=self.rank)
+        return best
+
+    def _coarser(self, settings):
+        """Settings with the next two longer steps, and with the next two coarser meshes."""
+        steps, meshes = self.survey.ladders.get(family_of(settings)), self.survey.mesh_ladder
+        steppings = [run.settings.stepping for run in steps.runs] if steps else []
+        factors = [run.settings.mesh for run in meshes.runs] if meshes else []
+        yield from (Settings(settings.mesh, stepping) for stepping in before(steppings, settings.stepping))
+        yield from (Settings(mesh, settings.stepping) for mesh in before(factors, settings.mesh))
 
     def _families(self):
         return list(self.survey.ladders) or [None]
@@ -143,6 +168,12 @@ class Chooser:
         if step_run and mesh_run and common:
             newton *= mesh_run.newton / common
         return self.fitted_cost(newton, (mesh_run or step_run).elements)
+
+
+def before(items, item):
+    """The two of a list that stand before one of them."""
+    place = items.index(item) if item in items else 0
+    return items[max(0, place - 2):place]
 
 
 def family_of(settings):

@@ -6,6 +6,6 @@ def write_whole(path, text):
     try:
         part.write_text(text, encoding="utf-8", newline="")
         part.replace(path)
-    except OSError:
+    except (OSError, UnicodeError):
         part.unlink(missing_ok=True)
         raise

@@ -30,7 +30,7 @@ def obstacles(axes):
 
 def place(axes, words, point, taken):
     """Writes words near a point, and adds their box to those that are taken."""
-    text = axes.annotate(words, point, textcoords="offset points", fontsize=8, zorder=6,
+    text = axes.annotate(words, point, xytext=(0, 0), textcoords="offset points", fontsize=8, zorder=6,
                          bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.5},
                          arrowprops={"arrowstyle": "-", "color": "#666666", "linewidth": 0.6, "shrinkB": 3})
     best = None

@@ -251,8 +251,20 @@ class Survey:
             run = self.runner.run(settings, FINER_SHARE * self.runner.budget)
             if not run.is_finished or size(run) >= ladder.sizes[-1]:
                 break
-            ladder = Ladder("mesh", [*ladder.sizes, size(run)], [*ladder.runs, run])
+            longer = Ladder("mesh", [*ladder.sizes, size(run)], [*ladder.runs, run])
+            # A step may be too long for shorter elements, which then vibrate from step to step.
+            if self._digits(longer) <= self._digits(ladder):
+                break
+            ladder = longer
         return ladder
+
+    def _digits(self, ladder):
+        """How many digits of all columns together a ladder's limit is known to."""
+        scale = history.scales(ladder.runs[-1].columns, self.variants.is_static)
+        mask = numpy.full(len(ladder.runs[-1].times), True)
+        doubts = [ladder.doubt(name, mask) / scale[name] for name in scale
+                  if scale[name] > 0 and history.kind_of(name) != "acceleration"]
+        return -numpy.log10(numpy.clip(doubts, SMALL, 1.0)).sum()
 
     # Other families.
 
