@@ -3,6 +3,7 @@ import argparse
 import fractions
 import pathlib
 import sys
+import tempfile
 import types
 import unittest
 
@@ -12,11 +13,22 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "src" / "chart"))
 sys.dont_write_bytecode = True
 
+import labels
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+
+from command_line import Part, parse
+from files import write_whole
 from history import scales, smooth_attitude
 from ladder import Ladder
 from messages import Refusal
 from reference import Reference
+from runs import FINISHED, TOO_DEAR, Run, Runner
 from scene_text import SceneText
+from spread import run_part
+from survey import Survey
 from variants import Settings, Stepping, Variants
 
 BLOCK = """# Grüße
@@ -132,6 +144,24 @@ class Truth(unittest.TestCase):
         self.assertGreater(reference.doubt["p.x"], 0.01)
         self.assertFalse(reference.can_tell("p.x", 0.003))
 
+    def test_no_error_is_told_below_the_doubt(self):
+        noise = numpy.random.default_rng(1)
+        reference = reference_of(lambda t, h, dt: numpy.sin(t) + 0.02 * noise.standard_normal(t.size))
+        finest = reference.ladders[0].runs[-1]
+        finest.columns = {"p.x": reference.truth["p.x"]}
+        self.assertEqual(reference.errors(finest)["p.x"][0], reference.doubt["p.x"])
+        self.assertTrue(reference.is_bound(finest, "p.x"))
+        off = run_of(1, 1, lambda t, h, dt: reference.truth["p.x"] + 1)
+        self.assertFalse(reference.is_bound(off, "p.x"))
+        self.assertAlmostEqual(reference.errors(off)["p.x"][0], 0.5, delta=0.05)
+
+    def test_extrapolated_is_said_of_what_is(self):
+        smooth = reference_of(lambda t, h, dt: numpy.sin(t) + 0.1 * h**2 * t + 0.5 * dt**2 * numpy.cos(t))
+        self.assertEqual([smooth.extrapolated(ladder) for ladder in smooth.ladders], [(1, 1), (1, 1)])
+        # Every mesh moves the result by as much as the one before.
+        rough = reference_of(lambda t, h, dt: numpy.sin(t) + 1e-3 * numpy.log2(h) + 0.5 * dt**2 * numpy.cos(t))
+        self.assertEqual([rough.extrapolated(ladder) for ladder in rough.ladders], [(0, 1), (1, 1)])
+
     def test_chaos_has_an_end(self):
         def motion(t, h, dt):
             apart = numpy.minimum(1.0, 1e-5 * numpy.exp(2 * t))
@@ -146,6 +176,106 @@ class Truth(unittest.TestCase):
 
     def test_what_is_prescribed_tells_nothing(self):
         self.assertEqual(reference_of(lambda t, h, dt: numpy.sin(t)).columns, [])
+
+
+class Machine:
+    """Stands for a Runner: runs cost their work, and those of a tolerance take the longest step, whatever it is."""
+
+    def __init__(self, variants, budget):
+        self.variants, self.budget, self.all, self.folder = variants, budget, {}, "folder"
+        self.work = Runner.work.__get__(self)
+        self.expected_cpu = lambda settings: 0.0
+
+    finished = property(lambda self: [run for run in self.all.values() if run.is_finished])
+    spent = property(lambda self: float(len(self.all)))
+
+    def run(self, settings, limit=numpy.inf):
+        status = FINISHED if len(self.all) < self.budget else TOO_DEAR
+        stepping = settings.stepping
+        steps = 200 if stepping.tolerance is not None else round(10 / stepping.step)
+        columns = {"p.x": numpy.sin(TIMES) + (10 / steps) ** 2}
+        return self.all.setdefault(settings, Run(settings, None, status, process_cpu=[1.0], steps=steps, times=TIMES, columns=columns))
+
+
+def survey_of(text, budget=1000):
+    variants = Variants(SceneText(text))
+    return Survey(Machine(variants, budget), variants, [])
+
+
+FIXED = "cables: {c: {elements: 8}}\ntime: {end: 10, step: 0.01}\noutput: {interval: 0.1, history: [c]}\n"
+
+
+class Surveys(unittest.TestCase):
+    def test_tolerances_that_take_the_same_steps_are_one_rung(self):
+        survey = survey_of(FIXED)
+        rungs = [Settings(fractions.Fraction(1), Stepping(step=0.01, tolerance=10.0**-power)) for power in range(4)]
+        ladder = survey._climb("tolerance", rungs, survey._step_size("tolerance"), 1.0)
+        self.assertEqual([run.settings.stepping.tolerance for run in ladder.runs], [1e-3])
+
+    def test_work_of_both_kinds_of_steps_is_comparable(self):
+        machine = survey_of(FIXED).runner
+        adaptive = Settings(fractions.Fraction(1), Stepping(step=0.01, tolerance=1e-3))
+        machine.run(adaptive)
+        fixed = Settings(fractions.Fraction(1), Stepping(step=10 / 200))
+        self.assertAlmostEqual(machine.work(adaptive), machine.work(fixed))
+
+    def test_parts_deal_out_the_grid(self):
+        survey = survey_of(FIXED)
+        grid = survey.grid()
+        self.assertEqual({float(settings.mesh) for settings in grid}, {0.25, 0.5, 1, 2, 4})
+        done = []
+        for number in (1, 2, 3):
+            survey = survey_of(FIXED)
+            self.assertIn(f"part {number} of 3", run_part(survey.runner, grid, Part(number, 3)))
+            done += survey.runner.all
+        self.assertEqual((len(done), set(done)), (len(grid), set(grid)))
+        costs = [survey.runner.work(settings) for settings in survey.runner.all]
+        self.assertEqual(costs, sorted(costs))
+
+    def test_a_part_ends_with_its_budget(self):
+        survey = survey_of(FIXED, budget=4)
+        self.assertIn("4 of ", run_part(survey.runner, survey.grid(), Part(1, 1)))
+        self.assertEqual(len(survey.runner.all), 5)
+
+    def test_repetitions_change_no_decision(self):
+        variants = Variants(SceneText(FIXED))
+        runner = Runner([sys.executable], variants, pathlib.Path("nowhere"), 10.0, None)
+        runner.all["first"] = Run(None, None, FINISHED, process_cpu=[2.0, 3.0, 3.0])
+        runner.all["part"] = Run(None, None, FINISHED, process_cpu=[5.0, 1.0], is_of_part=True)
+        self.assertEqual((runner.left, runner.spent), (7.0, 9.0))
+
+
+class Words(unittest.TestCase):
+    def test_schemes_leave_the_scene_alone(self):
+        given = parse(["--schemes", "plain,generalized_alpha", "scene.yaml"])
+        self.assertEqual((given.schemes, given.scene.name), (["plain", "generalized_alpha"], "scene.yaml"))
+        for words in (["--schemes", "plain", "euler"], ["scene.yaml", "--part", "0/2"], ["scene.yaml", "--part", "2"]):
+            with self.assertRaises(Refusal):
+                parse(words + ([] if "scene.yaml" in words else ["--schemes", "euler"]))
+
+    def test_files_are_whole(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "chart.yaml"
+            write_whole(path, "old")
+            with self.assertRaises(UnicodeEncodeError):
+                write_whole(path, "half\ud800")
+            self.assertEqual((path.read_text(), [one.name for one in path.parent.iterdir()]), ("old", ["chart.yaml"]))
+
+
+class Labels(unittest.TestCase):
+    def test_words_keep_clear_of_points_and_each_other(self):
+        figure, axes = plt.subplots(figsize=(8, 6))
+        places = [(0.4, 0.5), (0.45, 0.51), (0.55, 0.52), (0.42, 0.47), (0.6, 0.6)]
+        axes.plot(*zip(*places), "o", label="points")
+        axes.set(xlim=(0, 1), ylim=(0, 1))
+        axes.legend()
+        figure.draw_without_rendering()
+        taken = labels.obstacles(axes)
+        for point in places[:3]:
+            labels.place(axes, "1 %: 24 el., step 0.01 s", point, taken)
+        boxes = [box for box, _ in taken]
+        for place in range(len(boxes) - 3, len(boxes)):
+            self.assertFalse(any(boxes[place].overlaps(other) for other in boxes[:place]))
 
 
 class Scales(unittest.TestCase):

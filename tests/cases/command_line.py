@@ -1,38 +1,11 @@
 """The command line keeps its promises on exit statuses, files, PETSc options and help."""
-import csv
 import json
-import subprocess
 import sys
 
-from bench import ENVIRONMENT, SCENES, arguments
+from bench import SCENES, Bench, arguments, expect, status
 
 SCENE = (SCENES / "command_line.yaml").read_text(encoding="utf-8")
 FILES = {"history.csv", "cables.xmf", "mesh.h5", "frames_0000.h5", "result.h5", "run.yaml"}
-failures = []
-
-
-def expect(truth, text):
-    print(("ok    " if truth else "FAIL  ") + text)
-    if not truth:
-        failures.append(text)
-
-
-class Bench:
-    def __init__(self, program, folder):
-        self.program = program
-        self.folder = folder
-
-    def __call__(self, *arguments, ranks=0):
-        launcher = ["mpirun", "-n", str(ranks)] if ranks else []
-        return subprocess.run([*launcher, self.program, *arguments], cwd=self.folder, capture_output=True, text=True,
-                              timeout=60, env=ENVIRONMENT, check=False)
-
-    def rows(self, run):
-        with open(self.folder / run / "history.csv", encoding="utf-8") as table:
-            return list(csv.DictReader(table))
-
-    def report(self, run):
-        return (self.folder / run / "run.yaml").read_text()
 
 
 def runs_and_results(bench):
@@ -130,8 +103,7 @@ def main():
     bench = Bench(given.program, given.scratch)
     for part in (runs_and_results, petsc_options, failures_are_told, help_and_check, stale_results):
         part(bench)
-    print(f"{len(failures)} failures")
-    return 1 if failures else 0
+    return status()
 
 
 if __name__ == "__main__":
