@@ -81,9 +81,12 @@ def own_folder(folder, shared):
 def make_chart(program, given):
     scene = read_scene(program, given.scene)
     check_outputs(given)
+    variants = Variants(scene)
+    if variants.is_static and not variants.has_meshes:
+        raise Refusal(f"{given.scene} has nothing to chart: an equilibrium has no steps, and no cable has more than one "
+                      "element" + (" (a net's meshes are its own)" if scene.names("nets") else ""))
     with own_folder(given.folder, shared=given.part is not None):
         progress = Progress()
-        variants = Variants(scene)
         runner = Runner(launcher(program, given.ranks), variants, given.folder.resolve(), given.budget, progress,
                         is_part=given.part is not None)
         survey = Survey(runner, variants, given.schemes)

@@ -9,6 +9,7 @@ from matplotlib.transforms import Bbox
 DISTANCES = (8, 20, 36, 56)
 DIRECTIONS = ((1, 0.5, "left", "bottom"), (1, -0.5, "left", "top"), (-1, 0.5, "right", "bottom"), (-1, -0.5, "right", "top"),
               (0, 1, "center", "bottom"), (0, -1, "center", "top"))
+SHIFT = {"left": 0.0, "center": 0.5, "right": 1.0, "bottom": 0.0, "top": 1.0}
 MARKER, PADDING = 7, 3
 
 # How much it matters what words cross: a sample of a line, a point, other words.
@@ -33,27 +34,25 @@ def place(axes, words, point, taken):
     text = axes.annotate(words, point, xytext=(0, 0), textcoords="offset points", fontsize=8, zorder=6,
                          bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.5},
                          arrowprops={"arrowstyle": "-", "color": "#666666", "linewidth": 0.6, "shrinkB": 3})
-    best = None
-    for distance, (x, y, horizontal, vertical) in itertools.product(DISTANCES, DIRECTIONS):
-        text.set(horizontalalignment=horizontal, verticalalignment=vertical)
-        text.xyann = (distance * x, distance * y)
-        crossed = crossings(axes, text, taken)
-        if best is None or crossed < best[0]:
-            best = (crossed, text.xyann, horizontal, vertical)
-    _, text.xyann, horizontal, vertical = best
-    text.set(horizontalalignment=horizontal, verticalalignment=vertical)
-    taken.append((box_of(text), WORDS))
-
-
-def box_of(text):
-    """Of the words, without the line to their point."""
-    renderer = text.figure.canvas.get_renderer()
+    renderer = axes.figure.canvas.get_renderer()
     text.update_positions(renderer)
-    return Text.get_window_extent(text, renderer).padded(PADDING)
+    size = Text.get_window_extent(text, renderer).size
+    start, unit = axes.transData.transform(point), axes.figure.dpi / 72
+
+    def box(choice):
+        distance, (x, y, horizontal, vertical) = choice
+        corner = start + distance * unit * numpy.array([x, y]) - size * (SHIFT[horizontal], SHIFT[vertical])
+        return Bbox.from_bounds(*corner, *size).padded(PADDING)
+
+    best = min(itertools.product(DISTANCES, DIRECTIONS), key=lambda choice: crossings(axes, box(choice), taken))
+    distance, (x, y, horizontal, vertical) = best
+    text.xyann = (distance * x, distance * y)
+    text.set(horizontalalignment=horizontal, verticalalignment=vertical)
+    taken.append((box(best), WORDS))
 
 
-def crossings(axes, text, taken):
-    """What the words cross; leaving the axes is worse than all of that."""
-    box, frame = box_of(text), axes.get_window_extent()
+def crossings(axes, box, taken):
+    """What words cross; leaving the axes is worse than all of that."""
+    frame = axes.get_window_extent()
     inside = frame.x0 <= box.x0 and box.x1 <= frame.x1 + 10 and frame.y0 <= box.y0 and box.y1 <= frame.y1
     return sum(weight for other, weight in taken if box.overlaps(other)) + (0 if inside else 10000)

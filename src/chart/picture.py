@@ -76,7 +76,9 @@ def draw_costs(axes, findings):
     axes.axhspan(LEAST_DRAWN / 10, findings.doubt, color="#dddddd", zorder=0,
                  label=f"not known: the truth is known to {percent(findings.doubt)}, ▽ errs by less")
     axes.set_xlabel("cost: CPU seconds of solving")
-    axes.set_ylabel("error: rms over time / range, of the worst quantity")
+    told, count = len(findings.told), len(findings.reference.columns)
+    worst = "of the worst quantity" if told == count else f"of the worst of {told} of {count} quantities"
+    axes.set_ylabel(f"error: rms over time / range, {worst}")
     percent_axis(axes.yaxis)
     axes.xaxis.set_major_formatter(ticker.FuncFormatter(lambda value, _: seconds(value)))
     axes.legend(fontsize=8, loc="upper right", framealpha=0.9)

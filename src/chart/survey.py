@@ -127,7 +127,8 @@ class Survey:
 
     def _climb(self, kind, settings, size, share):
         """@param settings  of all rungs, coarse to fine   @param size  of a run"""
-        allowance = share * self.runner.budget
+        # Where there are no meshes to compare, their part of the budget is free.
+        allowance = share * self.runner.budget * (1 if self.variants.has_meshes else 2)
         self.planned[kind] = settings
         runs, spent = [], 0.0
         for rung in settings:

@@ -2,6 +2,7 @@
 nothing is run twice."""
 import csv
 import os
+import pathlib
 import re
 import resource
 import subprocess
@@ -28,7 +29,8 @@ output: {{interval: 0.1, history: [foot, chain]}}
 """
 ELEMENTS, STEP = 12, 0.02
 FINE = 8
-BUDGET = 12.0
+BUDGET = 8.0
+JOB = pathlib.Path(__file__).resolve().parents[2] / "jobs" / "chart.sh"
 # The largest error that a chosen run may have over the accuracy that it was chosen for.
 SLACK = 2.0
 
@@ -41,8 +43,9 @@ class ChartBench(Bench):
         expect(done.returncode == 0, f"{name}: {elements} elements and steps of {step:.4g} s are solved")
         return self.columns(name)
 
-    def start(self, *words):
-        return subprocess.Popen([self.program, *map(str, words)], cwd=self.folder, env=ENVIRONMENT, text=True,
+    def start(self, *words, **variables):
+        """A task of a Slurm job."""
+        return subprocess.Popen([JOB, *words], cwd=self.folder, env={**ENVIRONMENT, "CABLENET": self.program, **variables}, text=True,
                                 stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
 
     def columns(self, run):
@@ -56,6 +59,13 @@ class ChartBench(Bench):
 def worst(columns, truth, scales):
     """The error of the worst column: the root of its mean square over time, by the chart's scale."""
     return max(float(numpy.sqrt(numpy.mean((columns[name] - truth[name])[1:] ** 2))) / scale for name, scale in scales.items())
+
+
+def still(elements):
+    """An equilibrium of the scene."""
+    moving = 'motion: {expression: {x: "(1-cos(2*pi*t/8))^2"}}'
+    text = SCENE.format(elements=elements, step=STEP).replace(moving, "motion: fixed")
+    return text.split("time:")[0] + "output: {history: [foot, chain]}\n"
 
 
 def first_chart(bench):
@@ -140,9 +150,10 @@ def rows_say_what_they_cover(bench):
 
 def parts(bench):
     """Parts do the grid side by side; the chart takes their runs, and its budget does not count them."""
-    static = SCENE.format(elements=ELEMENTS, step=STEP).split("time:")[0].replace("motion: {expression: {x: \"(1-cos(2*pi*t/8))^2\"}}", "motion: fixed")
-    (bench.folder / "still.yaml").write_text(static + "output: {history: [foot, chain]}\n")
-    started = [bench.start("chart", "still.yaml", "--part", f"{number}/2") for number in (1, 2)]
+    (bench.folder / "still.yaml").write_text(still(ELEMENTS))
+    # As Slurm starts the tasks of --array=3-7:4.
+    started = [bench.start("still.yaml", SLURM_ARRAY_TASK_ID=task, SLURM_ARRAY_TASK_MIN="3", SLURM_ARRAY_TASK_STEP="4",
+                           SLURM_ARRAY_TASK_COUNT="2") for task in ("3", "7")]
     said = [one.communicate(timeout=60)[0] for one in started]
     expect(all(one.returncode == 0 for one in started) and "part 1 of 2: 3 of 3 runs" in said[0] and "part 2 of 2: 2 of 2 runs" in said[1],
            "two parts do the five meshes of an equilibrium")
@@ -189,7 +200,7 @@ def small_budgets(bench):
     advised = done.stderr.rsplit("--budget ", 1)[1].split()[0]
     done = bench("chart", "scene.yaml", "-o", "tiny", "--budget", advised)
     expect(done.returncode == 0 and re.search(r"^10 %  +\d", done.stdout, re.MULTILINE), f"with the advised {advised} s there is a chart")
-    done = bench("chart", "scene.yaml", "--budget", BUDGET, "--accuracy", "1e-9", "--write", "none.yaml")
+    done = bench("chart", "still.yaml", "--budget", "5", "--accuracy", "1e-9", "--write", "none.yaml")
     expect(done.returncode == 3 and not (bench.folder / "none.yaml").exists(), "settings that nothing reaches are not written")
     budget = 0.6 * bench.result()["cpu_s"]
     done = bench("chart", "scene.yaml", "-o", "cut", "--budget", budget)
@@ -201,7 +212,8 @@ def wrong_words(bench):
     (bench.folder / "file").write_text("")
     (bench.folder / "crowded" / "chart.svg").mkdir(parents=True)
     (bench.folder / "wrong.yaml").write_text(SCENE.format(elements=0, step=STEP))
-    for words, status, part in ((("scene.yaml", "--budget", "-1"), 2, "--budget"), (("scene.yaml", "--budget", "much"), 2, "--budget"),
+    (bench.folder / "bars.yaml").write_text(still(1))
+    for words, status, part in ((("bars.yaml",), 2, "nothing to chart"), (("scene.yaml", "--budget", "-1"), 2, "--budget"), (("scene.yaml", "--budget", "much"), 2, "--budget"),
                                 (("scene.yaml", "--accuracy", "2"), 2, "--accuracy"), (("scene.yaml", "--ranks", "0"), 2, "--ranks"),
                                 (("scene.yaml", "--write", "x.yaml"), 2, "--accuracy"), (("--schemes", "euler", "scene.yaml"), 2, "euler"), (("--schemes", "plain,", "scene.yaml"), 2, "--schemes"),
                                 (("scene.yaml", "--part", "3/2"), 2, "--part"), (("scene.yaml", "--part", "1/2", "--accuracy", "0.1", "--write", "x.yaml"), 2, "--part"),
