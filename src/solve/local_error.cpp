@@ -56,6 +56,13 @@ double scale_of(const Vector3& v, const Vector3& jerk) {
 
 }   // namespace
 
+double turned_way(const partition::LocalBody& body, const double* unknowns) {
+  bodies::Vector4 y = bodies::Vector4::Zero();
+  std::copy_n(unknowns, bodies::rotation_unknowns(body.properties.rotation), y.data());
+  const Quaternion start = bodies::attitude(body.properties, body.start.y);
+  return 2 * body.reach * std::sin(start.angularDistance(bodies::attitude(body.properties, y)) / 2);
+}
+
 /// An error counts over the time in which the motion turns by `memory`, at most `longest_`, at least the step.  A
 /// radian takes sqrt(|v|/|x'''|), v the part of x' along x''': what moves steadily across it is no part of the turn.
 /// @returns |x'''| times that time, in units of x''

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablenet/bodies/rigid_body.hpp"
-
 namespace cablenet::solve {
 namespace {
 
@@ -12,13 +10,6 @@ namespace {
 constexpr double least_scale = 0.025;
 
 }   // namespace
-
-double turned_way(const partition::LocalBody& body, const double* unknowns) {
-  bodies::Vector4 y = bodies::Vector4::Zero();
-  std::copy_n(unknowns, bodies::rotation_unknowns(body.properties.rotation), y.data());
-  const Quaternion start = bodies::attitude(body.properties, body.start.y);
-  return 2 * body.reach * std::sin(start.angularDistance(bodies::attitude(body.properties, y)) / 2);
-}
 
 MotionMeans::MotionMeans(const partition::LocalNetwork& network) : mass_(network.owned, 0.0) {
   for (const auto& load : network.loads)

@@ -95,4 +95,8 @@ private:
   int unknown_turns_ = 0;       ///< Conserving bodies count when so many more steps in a row have been estimated.
 };
 
+/// How far a body's farthest attachment is from where the start's attitude had it.  [m]
+/// @param unknowns  of the attitude
+double turned_way(const partition::LocalBody& body, const double* unknowns);
+
 }   // namespace cablenet::solve

@@ -24,10 +24,6 @@ struct MassMotion {
   double speed;   ///< [m/s]
 };
 
-/// How far a body's farthest attachment is from where the start's attitude had it.  [m]
-/// @param unknowns  of the attitude
-double turned_way(const partition::LocalBody& body, const double* unknowns);
-
 /// The means over the masses of nodes and bodies.  A node has the halves of its elements' masses.
 class MotionMeans {
 public:
