@@ -28,6 +28,10 @@ constexpr Way ways[] = {{0.01, 4}, {0.1, 4}, {0.01, 2}};
 /// The residual over the drag at which a descent ends, and a stage.
 constexpr double goal_of_descent = 1e-3, goal_of_stage = 1e-3;
 
+/// The most that a correction of Newton's method changes an element's chord, over its unstretched length.  No line
+/// search shortens corrections here, and beyond this the predicted tensions mean nothing.
+constexpr double most_turn = 1;
+
 /// How often drag is taken anew in a stage, and Newton's corrections at most.
 constexpr int most_drags = 3, most_corrections = 8, most_last_corrections = 40;
 
@@ -63,7 +67,7 @@ bool BedDrift::find(Vec x) {
   return false;
 }
 
-bool BedDrift::arrive(Vec x) { return arrive(x, {0, most_last_corrections, false}); }
+bool BedDrift::arrive(Vec x) { return arrive(x, {0, most_last_corrections, false, true, most_turn}); }
 
 void BedDrift::harden_in_stages(Vec x, double least, double hardening) {
   StaticRule softer = rule_;
@@ -82,7 +86,7 @@ void BedDrift::harden_in_stages(Vec x, double least, double hardening) {
 
 /// In later stages the shape changes little, and Newton's method may arrive at once.
 void BedDrift::settle(Vec x, bool is_first) {
-  const StaticGoal goal{goal_of_stage * drag_norm_, most_corrections, false};
+  const StaticGoal goal{goal_of_stage * drag_norm_, most_corrections, false, true, most_turn};
   if (!is_first && arrive(x, goal)) return;
   for (int i = 0; i < most_drags; ++i) {
     forces_.hold_drag(x);

@@ -39,10 +39,6 @@ constexpr double cautious = 1e-4;
 /// Where less than this share of a correction is taken, the next one is made in a shorter pseudo-time.
 constexpr double short_step = 0.15;
 
-/// The most that a correction with a predicted tension changes an element's chord, over its unstretched length.  It
-/// searches along no line, and beyond this the prediction means nothing.
-constexpr double most_turn = 1;
-
 /// What keeps tangents definite.
 constexpr double first_shift = 0.01, largest_shift = 1e6, shift_growth = 10;   // [1/s], [1/s], 1
 
@@ -141,7 +137,7 @@ bool StaticNewton::settle(Vec x, StaticRule rule, const StaticGoal& goal) {
     progress_.count();
     if (!correct(x, rule, goal.may_shift)) return false;
     forces_.keep(x);
-    const double share = search(x, rule, now, goal.searches);
+    const double share = search(x, rule, now, goal);
     if (share < short_step) shift_ = std::max(first_shift, shift_growth * shift_growth * shift_);
     check(VecAXPY(x, share, step_));
   }
@@ -183,22 +179,22 @@ bool StaticNewton::factor_and_solve() {
 /// @returns the share of the step to take.  The whole step goes too far where the force along it has turned round and
 /// is nearly as large as before: a minimum lies between.  It is taken all the same where the residual falls, as in
 /// drag.
-double StaticNewton::search(Vec x, const StaticRule& rule, double now, bool searches) {
+double StaticNewton::search(Vec x, const StaticRule& rule, double now, const StaticGoal& goal) {
   const double before = -dot(step_, r_);
-  double share = rule.kind == StaticRule::Kind::descent ? share_of_turn(x) : 1;
+  double share = std::isfinite(goal.most_turn) ? share_of_turn(x, goal.most_turn) : 1;
   for (int i = 0; i < 8; ++i) {
     check(VecWAXPY(trial_, share, step_, x));
     const double then = evaluate(rule, trial_, false);
     const double after = std::isfinite(then) ? -dot(step_, r_) : -infinite;
     const bool descends = before > 0 && after >= -0.8 * before;
-    if (std::isfinite(then) && (!searches || descends || then < now)) return share;
+    if (std::isfinite(then) && (!goal.searches || descends || then < now)) return share;
     const double shorter = std::isfinite(after) && before > 0 ? before / (before - after) : 0.3;
     share *= std::clamp(shorter, 0.1, 0.7);
   }
   return share;
 }
 
-double StaticNewton::share_of_turn(Vec x) {
+double StaticNewton::share_of_turn(Vec x, double most_turn) {
   check(VecWAXPY(trial_, 1, step_, x));
   return std::min(1.0, most_turn / forces_.largest_turn(x, trial_));
 }

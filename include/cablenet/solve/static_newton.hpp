@@ -1,6 +1,7 @@
 #pragma once
 #include <petscksp.h>
 
+#include <limits>
 #include <string>
 
 #include "cablenet/solve/linear_solver.hpp"
@@ -21,6 +22,8 @@ struct StaticGoal {
   int iterations;          ///< at most
   bool searches;           ///< along the line of each correction
   bool may_shift = true;   ///< where the tangent is not definite
+  /// The most that a correction changes an element's chord, over its unstretched length.
+  double most_turn = std::numeric_limits<double>::infinity();
 };
 
 /// All member functions are collective.
@@ -66,8 +69,8 @@ public:
 
 private:
   bool correct(Vec x, const system::StaticRule& rule, bool may_shift);
-  double search(Vec x, const system::StaticRule& rule, double now, bool searches);
-  double share_of_turn(Vec x);
+  double search(Vec x, const system::StaticRule& rule, double now, const StaticGoal& goal);
+  double share_of_turn(Vec x, double most_turn);
   bool factor_and_solve();
   bool is_final(double norm, double previous) const;
 
