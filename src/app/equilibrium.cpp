@@ -96,9 +96,10 @@ std::string Equilibrium::failed_lengths(const network::Network& network, const s
   return fmt::format(
       "no unstretched lengths were found that give all tensions asked for: {}. Farthest off is {} {}, which has {:.4g} "
       "N "
-      "{} in place of {:.4g} N, with {} {:.6g}",
+      "{} in place of {:.4g} N, with {} {:.6g}{}",
       search.failure(), worst.is_net ? "net" : "cable", found.name, found.tension,
-      worst.is_net ? "in the mean" : "at its start", worst.tension, worst.is_net ? "slack" : "length", found.value);
+      worst.is_net ? "in the mean" : "at its start", worst.tension, worst.is_net ? "slack" : "length", found.value,
+      search.is_least() ? "; that is about the least it can have" : "");
 }
 
 bool Equilibrium::find(const network::Network& network, Report& report) {

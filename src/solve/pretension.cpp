@@ -30,6 +30,10 @@ constexpr int most_leavings = 20;
 /// The change of the logarithm of a length by which slopes are found.  Elements stretched by less would go slack by it.
 constexpr double difference = 1e-8;
 
+/// A tension is at its least where it changes by less than this part of what it is too large by, with the logarithm of
+/// the length.
+constexpr double flat = 0.1;
+
 /// The slopes of tensions that depend on lengths alike are taken to be equal to within this.
 constexpr double alike = 1e-6;
 
@@ -221,6 +225,7 @@ bool PretensionSearch::solve() {
     const VectorXd change = decomposition.compute(slopes).solve(-now);
     if (change.allFinite() && !change.isZero(0) && take(change)) continue;
     failure_ = "no length brings it nearer";
+    is_least_ = count == 1 && now(0) > 0 && std::abs(slopes(0, 0)) < flat * now(0);
     break;
   }
   return miss <= enough;

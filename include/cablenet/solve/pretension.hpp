@@ -33,6 +33,8 @@ public:
   /// Index of the pretension whose tension is farthest off.
   std::size_t worst() const;
   const std::string& failure() const { return failure_; }
+  /// The search ended where the only tension asked for hardly depends on the length, and is larger than asked for.
+  bool is_least() const { return is_least_; }
   /// Otherwise there was none even with the network's lengths.
   bool has_equilibrium() const { return has_equilibrium_; }
   /// Of all equilibria on the way.
@@ -57,7 +59,7 @@ private:
   std::vector<double> factors_;
   Eigen::VectorXd tensions_;
   int iterations_ = 0;
-  bool has_equilibrium_ = false;
+  bool has_equilibrium_ = false, is_least_ = false;
   std::string failure_;
   system::TangentMatrix tangent_;
   KrylovSolver ksp_;
