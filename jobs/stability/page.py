@@ -28,11 +28,11 @@ def label(cell):
     return f"{MARKS[cell.colour]} {percent(cell.error) if cell.colour != 'told' else ''}".strip()
 
 
-def draw(folder, found, made, picked):
+def figure_of(found, made, picked):
     keys, columns = list(made), list(picked)
     first = dict(zip(keys, np.cumsum([0] + [len(made[key].steps) for key in keys])))
     rows = sum(len(made[key].steps) for key in keys)
-    figure, axes = plt.subplots(figsize=(5 + 0.62 * len(columns), 2.6 + 0.2 * rows))
+    figure, axes = plt.subplots(figsize=(3.5 + 0.47 * len(columns), 2.6 + 0.2 * rows))
     for cell in found:
         steps = made[cell.case].steps
         height = len(steps) if picked[cell.method].adaptive else 1
@@ -43,6 +43,11 @@ def draw(folder, found, made, picked):
                   color="white" if dark else "black", fontweight="bold" if dark else "normal")
     name_axes(axes, made, picked, first, rows)
     legend(axes, found, rows)
+    return figure
+
+
+def draw(folder, found, made, picked):
+    figure = figure_of(found, made, picked)
     for end in ("png", "svg"):
         figure.savefig(folder / f"map.{end}", dpi=110, bbox_inches="tight")
     plt.close(figure)
@@ -51,14 +56,14 @@ def draw(folder, found, made, picked):
 def name_axes(axes, made, picked, first, rows):
     axes.set(xlim=(0, len(picked)), ylim=(rows, 0))
     axes.xaxis.tick_top()
-    axes.set_xticks(np.arange(len(picked)) + 0.5, [name_of(method) for method in picked.values()], rotation=50, ha="left",
+    axes.set_xticks(np.arange(len(picked)) + 0.5, [name_of(method) for method in picked.values()], rotation=60, ha="left",
                     rotation_mode="anchor", fontsize=9)
     steps = [step for case in made.values() for step in case.steps]
     axes.set_yticks(np.arange(rows) + 0.5, [f"{step:g} s" for step in steps], fontsize=8)
     axes.tick_params(length=0)
     for key, case in made.items():
         axes.axhline(first[key], color="black", linewidth=0.8)
-        axes.text(-0.95, first[key] + len(case.steps) / 2, "\n".join(wrapped(case.name)), ha="right", va="center",
+        axes.text(-1.25, first[key] + len(case.steps) / 2, "\n".join(wrapped(case.name)), ha="right", va="center",
                   fontsize=9)
     for spine in axes.spines.values():
         spine.set_linewidth(0.8)
