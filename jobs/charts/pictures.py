@@ -21,7 +21,7 @@ KINDS = (("cpu_stepping", "-", True), ("cpu_whole", ":", False))
 LABELS = {"free end": "free fall", "tail": "tow: tail", "tow force": "tow: force", "fairlead tension": "chain: tension",
           "body": "buoy: place", "line tension": "buoy: tension"}
 ORIGIN = ("Stored: cablenet 0.1.0 and MoorDyn-C 2.7.1 on the same 2 virtual AMD EPYC cores, 2026-11-30, one core, best of 2-3.\n"
-          "Errors are against limits that both programs converge to. An error is at\n"
+          "Errors are against limits that both programs converge to, and at\n"
           "least that of its mesh with the finest steps. Curves: the cheapest runs of all meshes, steps and schemes.")
 # One and a quarter times the width of a column of text on GitHub [pixels].
 WIDTH = 1100
@@ -89,7 +89,7 @@ def statics_panel(axes, statics):
 def ratios_panel(axes, runs, whose):
     """For each measure the ratios at each accuracy, stepping above and the whole process below."""
     marks = dict(zip(costs.ACCURACIES, "oD^"))
-    keys = [measure for _, measure in costs.measures(runs)]
+    keys = list(dict.fromkeys(measure for _, measure, _ in costs.ratios(runs, "cpu_whole")))
     for cost, _, filled in KINDS:
         for (_, measure, accuracy), value in costs.ratios(runs, cost).items():
             axes.plot(value, keys.index(measure) + (-0.17 if filled else 0.17), marks[accuracy], color=BLUE, markersize=6,
