@@ -126,7 +126,7 @@ def error_over_cost(stored, statics, fresh, factor, path):
     legend(figure, fresh)
     words = ORIGIN
     if fresh:
-        words += f"\nThis run's times are multiplied by {factor:.3g}, the hand-written chain's time there over that here."
+        words += f"\nThis run's times are multiplied by {factor:.3g}, the hand-written chain's time there over that here; errors are the stored ones."
     figure.text(0.02, 0.002, words, fontsize=8, va="bottom")
     figure.tight_layout(rect=(0, 0.05, 1, 0.965))
     save(figure, path)
