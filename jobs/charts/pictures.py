@@ -21,8 +21,8 @@ KINDS = (("cpu_stepping", "-", True), ("cpu_whole", ":", False))
 LABELS = {"free end": "free fall", "tail": "tow: tail", "tow force": "tow: force", "fairlead tension": "chain: tension",
           "body": "buoy: place", "line tension": "buoy: tension"}
 ORIGIN = ("Stored: cablenet 0.1.0 and MoorDyn-C 2.7.1 on the same 2 virtual AMD EPYC cores, 2026-11-30, one core, best of 2-3.\n"
-          "Errors are against limits that both programs converge to, and at\n"
-          "least that of its mesh with the finest steps. Curves: the cheapest runs of all meshes, steps and schemes.")
+          "Errors are against limits that both programs converge to, and count as at least the mesh's own.\n"
+          "Curves: the cheapest runs of all meshes, steps and schemes.")
 # One and a quarter times the width of a column of text on GitHub [pixels].
 WIDTH = 1100
 # The colours that the pictures use, and how each fades into the colour behind it.
