@@ -177,7 +177,7 @@ void TensionNotes::add_folding(std::vector<std::string>& notes) const {
       name(span), place(most), std::floor(folding[span] / std::log(10.0))));
 }
 
-/// A line that is shortened as a whole bends out, and what steps err by grows as its bends do.
+/// A line bends out where all its elements are pushed.  Its bends grow, and the errors of the steps grow with them.
 void TensionNotes::add_bending(std::vector<std::string>& notes, double total_share) const {
   std::vector<double> bending(cables_, 0);
   for (std::size_t span = 0; span < cables_; ++span)

@@ -14,8 +14,8 @@ using system::StaticRule;
 constexpr double rough = 0.1;
 
 /// An element's stiffness is, in the first stage, `first_ratio` times the sum of `over_tension` times its tension and
-/// of a share of all drag.  What hangs bears much more than drag, and would stretch far if its own tension alone were
-/// its measure.
+/// of a share of all drag.  Without the share, what lies without tension would have no stiffness at all.  Without the
+/// tension, what hangs would stretch far, as it bears much more than drag.
 constexpr double first_ratio = 3, over_tension = 10;
 
 /// That share of all drag, and by how much the stiffness grows from stage to stage.  Where the first way did not

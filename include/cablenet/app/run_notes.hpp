@@ -11,7 +11,7 @@
 namespace cablenet::app {
 
 /// Of the steps: they failed often, or they are too long for the motion.
-/// @param lost  what the step's formulas have taken of the energy that moved, as a part of it; 0 where that is told
+/// @param lost  the energy that the step's formulas have taken, over the energy that moved; 0 where that is told
 std::vector<std::string> step_notes(const solve::StepFindings& steps, const solve::Counts& counts, double lost);
 
 /// Of the cables: some pushed, some folded, or a tension lasted one step.  Collective.

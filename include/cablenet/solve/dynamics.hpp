@@ -34,7 +34,7 @@ public:
 
   /// Goes from the start, or from what was loaded, to the end.
   Verdict run(const Observers& observers);
-  /// To be called by an observer on all ranks: the run ends after this step (Verdict::stopped).
+  /// The run ends after this step, with Verdict::stopped.  An observer calls it, on all ranks.
   void stop() { is_stopped_ = true; }
 
   const Counts& counts() const { return counts_; }

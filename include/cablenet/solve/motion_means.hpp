@@ -42,7 +42,7 @@ public:
 
 private:
   Table<LocalNode, double> mass_;   ///< of owned nodes [kg]
-  std::array<double, 4> sums_{};    ///< of mass, and of mass times the squares of error, way and speed
+  std::array<double, 4> sums_{};    ///< of m, m error^2, m way^2 and m speed^2, m the masses
   double way_ = 0;                  ///< as StepMeans::way
 };
 

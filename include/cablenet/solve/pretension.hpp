@@ -33,7 +33,7 @@ public:
   /// Index of the pretension whose tension is farthest off.
   std::size_t worst() const;
   const std::string& failure() const { return failure_; }
-  /// The search ended where the only tension asked for hardly depends on the length, and is larger than asked for.
+  /// One tension was asked for, and no length gives it: the search ended where the tension is at its least.
   bool is_least() const { return is_least_; }
   /// Otherwise there was none even with the network's lengths.
   bool has_equilibrium() const { return has_equilibrium_; }

@@ -21,7 +21,8 @@ public:
   /// @param details   for those who look at each iteration
   /// @returns false where the time is over
   bool note(const char* way, double residual, double reference, const std::string& details);
-  /// Likewise after a step of a network that settles in time: it has come to t of the duration.  [s]
+  /// Likewise where the network settles in time, after each step.
+  /// @param t  how far it has come [s]   @param duration  how far it has to come [s]
   bool note_settling(double t, double duration);
   void count() { ++iterations_; }
   int iterations() const { return iterations_; }

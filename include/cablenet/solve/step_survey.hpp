@@ -11,15 +11,15 @@ namespace cablenet::solve {
 /// How well steps have followed a motion.
 struct StepFindings {
   long looked_at;     ///< so many steps, one in several; error, step and motion are theirs
-  double error;       ///< the mean of their local errors (LocalError) [m]
-  double step;        ///< the mean of their lengths [s]
+  double error;       ///< the mean local error (LocalError) of the steps looked at [m]
+  double step;        ///< the mean length of the steps looked at [s]
   double motion;      ///< the largest distance of any node or attachment from where it was at the start [m]
   double shortest;    ///< of all steps [s]
-  int order;          ///< the power of the step's length that the error follows
+  int order;          ///< p, where the error of a step grows as its length to the power p
   bool is_adaptive;   ///< The steps follow the motion.
   double total;       ///< of the local errors of all steps, each by itself, in root mean squares over the mass [m]
   double path;        ///< how far the mass has gone on its ways, likewise [m]
-  double way;         ///< the largest distance of the mass from its start, likewise [m]
+  double way;         ///< how far the mass was from its start at most, likewise [m]
 
   /// An order of 2 says that errors add up: that of a step counts over LocalError::memory.
   bool adds_up() const { return order == 2; }
@@ -27,7 +27,8 @@ struct StepFindings {
   double share() const;
   /// The step whose share would be this.  [s]
   double step_for(double wanted) const;
-  /// Errors are told of a path of so many ways: some ten periods, or fifteen rounds of a circle.
+  /// A longer path than so many times the way adds no more errors.  It is some ten periods, or fifteen rounds of a
+  /// circle.
   static constexpr double counted_ways = 32;
   /// The path, over the way.
   double ways() const { return way > 0 ? path / way : 0; }
@@ -52,7 +53,7 @@ public:
   MotionMeans& means() { return means_; }
   /// @param steps  that were done before
   static bool looks_at(long steps) { return (steps < 256 ? steps % 8 : steps % 32) == 7; }
-  /// @param correction  the first one of Newton's method, its norm on all ranks [m]
+  /// @param correction  the 2-norm, over all ranks, of the first correction of Newton's method [m]
   bool is_event(long steps, double correction) const;
   /// One step in several, which stands for the others.
   void add_sample(double error, double dt, MPI_Comm communicator, bool is_event);
