@@ -83,6 +83,20 @@ void emit_energy(YAML::Emitter& yaml, const EnergyReport& report) {
   yaml << YAML::EndMap;
 }
 
+void emit_accuracy(YAML::Emitter& yaml, const Report::Accuracy& accuracy) {
+  yaml << YAML::Key << "accuracy" << YAML::Value << YAML::BeginMap;
+  yaml << YAML::Key << "wanted" << YAML::Value << fmt::format("{:.6g}", accuracy.wanted);
+  yaml << YAML::Key << "estimated" << YAML::Value << fmt::format("{:.3g}", accuracy.estimated);
+  yaml << YAML::Key << "worst_quantity" << YAML::Value << accuracy.quantity;
+  if (!accuracy.stepping.empty()) yaml << YAML::Key << "steps" << YAML::Value << accuracy.stepping;
+  if (!accuracy.elements.empty()) {
+    yaml << YAML::Key << "elements" << YAML::Value << YAML::BeginMap;
+    for (const auto& [cable, number] : accuracy.elements) yaml << YAML::Key << cable << YAML::Value << number;
+    yaml << YAML::EndMap;
+  }
+  yaml << YAML::EndMap;
+}
+
 void emit_stiffness(YAML::Emitter& yaml, const std::vector<NamedStiffness>& all) {
   yaml << YAML::Key << "stiffness" << YAML::Value << YAML::BeginMap;
   yaml << YAML::Key << "rows_by_columns" << YAML::Value
@@ -111,23 +125,31 @@ void emit_solution(YAML::Emitter& yaml, const Report& report) {
   yaml << YAML::Key << "newton_iterations" << YAML::Value << report.counts.newton;
   yaml << YAML::Key << "linear_iterations" << YAML::Value << report.counts.linear;
   if (report.energy) emit_energy(yaml, *report.energy);
+  if (report.accuracy) emit_accuracy(yaml, *report.accuracy);
   emit_seconds(yaml, "wall_seconds", report.phases, &Report::Phase::wall);
   emit_seconds(yaml, "cpu_seconds", report.phases, &Report::Phase::cpu);
 }
 
-}   // namespace
+bool is_silent = false;
 
-void tell(const std::string& text) {
+bool speaks() {
   int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  if (rank == 0) fmt::print("{}\n", text);
+  return rank == 0 && !is_silent;
+}
+
+}   // namespace
+
+Silence::Silence() { is_silent = true; }
+Silence::~Silence() { is_silent = false; }
+
+void tell(const std::string& text) {
+  if (speaks()) fmt::print("{}\n", text);
 }
 
 void add_note(Report& report, const std::string& text) {
   if (text.empty()) return;
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  if (rank == 0) fmt::print(stderr, "cablenet: note: {}\n", text);
+  if (speaks()) fmt::print(stderr, "cablenet: note: {}\n", text);
   report.notes.push_back(text);
 }
 

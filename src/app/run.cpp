@@ -10,6 +10,8 @@
 #include <optional>
 #include <sstream>
 
+#include "accurate_run.hpp"
+#include "cablenet/accuracy/fineness.hpp"
 #include "cablenet/app/command_line.hpp"
 #include "cablenet/app/python_part.hpp"
 #include "cablenet/app/simulation.hpp"
@@ -76,11 +78,15 @@ scene::Scene load_scene(const std::string& path) {
 }
 
 int check_scene(const CommandLine& line) {
-  const scene::Scene scene = load_scene(line.scene);
+  scene::Scene scene = load_scene(line.scene);
+  const bool is_open = scene.accuracy && accuracy::is_open(scene);
+  if (is_open) scene = first_choice(scene);
   const network::Network network = network::build_network(scene);
   if (this_rank() != 0) return 0;
   for (const std::string& note : network::drawn_notes(scene, network)) fmt::print(stderr, "cablenet: note: {}\n", note);
   fmt::print("{}: valid: {}\n", line.scene, describe(scene, network));
+  if (is_open)
+    fmt::print("This is its first coarse run: elements and steps are chosen for its accuracy when it is run.\n");
   return 0;
 }
 
@@ -101,7 +107,8 @@ int execute(const CommandLine& line) {
   if (line.command == Command::check) return check_scene(line);
   if (line.command == Command::solver_help) return print_solver_help();
   if (line.command == Command::run) {
-    const int status = simulate(load_scene(line.scene), line.directory);
+    const scene::Scene scene = load_scene(line.scene);
+    const int status = scene.accuracy ? simulate_accurately(scene, line.directory) : simulate(scene, line.directory);
     report_unused_options();
     return status;
   }

@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "cablenet/accuracy/fineness.hpp"
 #include "cablenet/app/progress.hpp"
 #include "cablenet/app/run_notes.hpp"
 #include "cablenet/base/errors.hpp"
@@ -18,6 +19,7 @@
 #include "cablenet/solve/scheme.hpp"
 #include "choices.hpp"
 #include "equilibrium.hpp"
+#include "history_record.hpp"
 #include "stopwatch.hpp"
 #include "text_file.hpp"
 
@@ -34,9 +36,10 @@ Report::Phase slowest(Report::Phase phase) {
 
 class Simulation {
 public:
-  Simulation(const scene::Scene& scene, std::filesystem::path directory)
+  Simulation(const scene::Scene& scene, std::filesystem::path directory, const Judge& judge)
       : scene_(scene),
         directory_(std::move(directory)),
+        judge_(judge),
         time_(chosen_time(scene.time)),
         rule_(chosen_force_rule(time_)),
         network_(network::build_network(scene)),
@@ -76,7 +79,7 @@ private:
   }
 
   void set_up_dynamics() {
-    solve::Dynamics::Settings settings{scene_.output.interval};
+    solve::Dynamics::Settings settings{judge_ ? accuracy::interval_of_rows(scene_) : scene_.output.interval};
     settings.keeps_accounts = scene_.output.energy;
     settings.takes_notes = true;
     dynamics_.emplace(*assembler_, time_, settings);
@@ -86,6 +89,7 @@ private:
   void open_output() {
     frames_.emplace(network_, partition_, *assembler_);
     probes_.emplace(scene_, network_, *assembler_);
+    if (judge_) record_.emplace(scene_, network_, *assembler_);
     output::Series::Options options;
     options.scene_hash = scene_hash(scene_);
     options.version = CABLENET_VERSION;
@@ -167,6 +171,8 @@ private:
       const system::LocalState& state =
           assembler_->observe(instant.t, instant.x, instant.v, instant.a, scene_.is_static);
       assembler_->look_at_energy();
+      if (record_) record_->look(state);
+      if (record_ && !accuracy::is_written(scene_, instant.t)) return;
       const std::vector<double>& row = probes_->row(state);
       if (history_) history_->write(row);
       series_->write(frames_->collect(state, instant.step));
@@ -196,6 +202,10 @@ private:
 
   int conclude(solve::Verdict verdict, const std::string& advice) {
     report_.status = "finished";
+    if (record_ && verdict != solve::Verdict::failed) {
+      report_.accuracy = judge_({true, record_->table()});
+      add_note(report_, report_.accuracy->note);
+    }
     if (verdict == solve::Verdict::stopped) report_.status = "stopped";
     if (verdict == solve::Verdict::failed) report_.status = "failed";
     for (const auto& phase : {set_up_, statics_, solving_, writing_}) report_.phases.push_back(slowest(phase));
@@ -240,6 +250,7 @@ private:
 
   const scene::Scene& scene_;
   std::filesystem::path directory_;
+  const Judge& judge_;
   Stopwatch watch_;
   scene::Time time_;
   system::ForceRule rule_;
@@ -252,6 +263,7 @@ private:
   std::optional<solve::Dynamics> dynamics_;
   std::optional<output::Frames> frames_;
   std::optional<output::Probes> probes_;
+  std::optional<HistoryRecord> record_;   ///< where somebody judges the run
   std::optional<output::Series> series_;
   std::optional<output::History> history_;   ///< rank 0
   Report report_;
@@ -264,10 +276,10 @@ private:
 
 }   // namespace
 
-int simulate(const scene::Scene& scene, const std::string& directory) {
+int simulate(const scene::Scene& scene, const std::string& directory, const Judge& judge) {
   petsc::check_solver_types(nullptr);
   petsc::check_solver_types(solve::relaxation_prefix);
-  return Simulation(scene, directory).run();
+  return Simulation(scene, directory, judge).run();
 }
 
 }   // namespace cablenet::app

@@ -82,6 +82,9 @@ def make_chart(program, given):
     scene = read_scene(program, given.scene)
     check_outputs(given)
     variants = Variants(scene)
+    if variants.is_open:
+        raise Refusal(f"{given.scene} leaves elements or the step to `accuracy`, and a chart starts from both: run the scene, "
+                      "and give those that its run.yaml names")
     if variants.is_static and not variants.has_meshes:
         raise Refusal(f"{given.scene} has nothing to chart: an equilibrium has no steps, and no cable has more than one "
                       "element" + (" (a net's meshes are its own)" if scene.names("nets") else ""))

@@ -96,6 +96,12 @@ class Variants:
         self.unit = None if self.is_static else min(self.interval, scene.number("output", "interval") or self.interval)
 
     @property
+    def is_open(self):
+        """Whether `accuracy` chooses some elements or the step."""
+        without = [name for name in self.scene.names("cables") if self.scene.find("cables", name, "elements") is None]
+        return bool(without) or not (self.is_static or self.scene.find("time", "step"))
+
+    @property
     def start(self):
         return self.scene.number("time", "start", default=0.0)
 
@@ -122,6 +128,9 @@ class Variants:
     def settings_edits(self, settings):
         edits = {path: str(scaled(number, settings.mesh)) for path, number in self.elements.items()}
         edits |= dict(self._rows_of_nodes(settings.mesh))
+        # A run of a ladder errs by what it errs by.
+        if self.scene.find("accuracy") is not None:
+            edits["accuracy",] = None
         stepping = settings.stepping
         if stepping is None:
             return edits

@@ -134,17 +134,9 @@ void Builder::lay_net(std::size_t index) {
       const SceneNode node = net_node(static_cast<int>(index), i, j);
       network_.position[node] = (1 - w) * ((1 - u) * c[0] + u * c[1]) + w * ((1 - u) * c[3] + u * c[2]);
       const bool held = std::any_of(net.fixed.begin(), net.fixed.end(), [&](scene::Edge edge) {
-        switch (edge) {
-          case scene::Edge::top:
-            return j == 0;
-          case scene::Edge::right:
-            return i == net.meshes[0];
-          case scene::Edge::bottom:
-            return j == net.meshes[1];
-          case scene::Edge::left:
-            return i == 0;
-        }
-        return false;
+        using scene::Edge;
+        return (edge == Edge::top && j == 0) || (edge == Edge::right && i == net.meshes[0]) ||
+               (edge == Edge::bottom && j == net.meshes[1]) || (edge == Edge::left && i == 0);
       });
       if (!held) continue;
       prescribed_[node] = true;
@@ -181,7 +173,7 @@ void Builder::lay_cable(std::size_t index) {
       complain(cable,
                fmt::format("a cable is tapped from it at {} m, but its unstretched length is {} m", tap, length));
   try {
-    arcs_[index] = node_arcs(length, cable.elements, taps_[index]);
+    arcs_[index] = node_arcs(length, cable.elements, taps_[index], cable.density);
   } catch (const InputError& problem) {
     complain(cable, problem.what());
   }
@@ -197,7 +189,7 @@ void Builder::place_cable(std::size_t index, const Vector3& a, const Vector3& b)
   if (cable.shape == scene::Shape::catenary)
     points = catenary_shape(a, b, arcs, hanging_of(scene_, scene_.cable_types[at(cable.type)], a, b));
   if (cable.shape == scene::Shape::polyline) {
-    points = polyline_shape(cable.polyline, arcs);
+    points = cable.has_chosen_mesh ? remeshed_shape(cable.polyline, arcs) : polyline_shape(cable.polyline, arcs);
     const double miss = std::max((points.front() - a).norm(), (points.back() - b).norm());
     if (miss > 1e-3 * arcs.back())
       complain(cable,
@@ -222,9 +214,11 @@ void Builder::set_velocities(std::size_t index) {
   const std::vector<double>& arcs = arcs_[index];
   const Vector3 v0 = network_.velocity[end_node(cable.from)];
   const Vector3 v1 = network_.velocity[end_node(cable.to)];
+  const std::vector<Vector3>& rows = cable.node_velocity;
   for (int k = 1; k < cable.elements; ++k)
-    network_.velocity[cable_node(index, k)] =
-        cable.node_velocity.empty() ? v0 + (v1 - v0) * (arcs[at(k)] / arcs.back()) : cable.node_velocity[at(k)];
+    network_.velocity[cable_node(index, k)] = rows.empty()            ? v0 + (v1 - v0) * (arcs[at(k)] / arcs.back())
+                                              : cable.has_chosen_mesh ? row_at(rows, arcs[at(k)] / arcs.back())
+                                                                      : rows[at(k)];
 }
 
 /// A free point without a drawn velocity takes the cable's.  Prescribed points, taps and net nodes keep their own.

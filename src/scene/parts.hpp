@@ -63,14 +63,14 @@ Form output_form();
 
 /// Puts gravity, fluid and bed into the scene.
 void read_environment(const Value&, Scene&);
-Time read_time(const Value&);
+Time read_time(const Value&, const Scene& scene);
 /// @pre the scene's time is read, and whether it starts from an equilibrium.
 Output read_output(const std::optional<Value>&, const Scene&, const SceneNames&);
 /// @pre the scene's environment is read.
 std::vector<CableType> read_cable_types(const Value&, const Scene&, Names& types);
 std::vector<PointDraft> read_points(const Value&, const Time&);
 std::vector<BodyDraft> read_bodies(const Value&);
-std::vector<CableDraft> read_cables(const Value&, const Names& types);
+std::vector<CableDraft> read_cables(const Value&, const Scene& scene, const Names& types);
 std::vector<Net> read_nets(const Value&, const Names& types, Names& nets);
 
 /// @throws InputError if the scene has more nodes than an unknown's number can count.

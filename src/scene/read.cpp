@@ -20,25 +20,31 @@ struct TopKeys {
   std::string title;
   std::optional<Value> environment, cable_types, points, bodies, cables, nets, time, output;
   std::optional<Initial> initial;
+  std::optional<double> accuracy;
 };
 
 const Table<TopKeys>& top_table() {
   static const Table<TopKeys> table(
-      "A scene.", {{"title", text("a text"), absent("none"), "What the scene is called.", &TopKeys::title},
-                   {"environment", later(environment_form()), absent("gravity alone"), "What surrounds the cables.",
-                    &TopKeys::environment},
-                   {"cable_types", later(cable_types_form()), absent("allowed without cables and nets only"),
-                    "What cables are made of.", &TopKeys::cable_types},
-                   {"points", later(points_form()), absent("none"), "Points where cables end.", &TopKeys::points},
-                   {"bodies", later(bodies_form()), absent("none"), "Rigid bodies.", &TopKeys::bodies},
-                   {"cables", later(cables_form()), absent("none"), "Cables.", &TopKeys::cables},
-                   {"nets", later(nets_form()), absent("none"), "Nets.", &TopKeys::nets},
-                   {"initial", choice<Initial>(), absent("rest; static in a scene without time"),
-                    "Whether a run starts as drawn (rest) or from the equilibrium (static).", &TopKeys::initial},
-                   {"time", later(time_form()), absent("the equilibrium is the result"),
-                    "How the scene goes through time.", &TopKeys::time},
-                   {"output", later(output_form()), absent("100 frames and an empty history"), "What is written.",
-                    &TopKeys::output}});
+      "A scene.",
+      {{"title", text("a text"), absent("none"), "What the scene is called.", &TopKeys::title},
+       {"environment", later(environment_form()), absent("gravity alone"), "What surrounds the cables.",
+        &TopKeys::environment},
+       {"cable_types", later(cable_types_form()), absent("allowed without cables and nets only"),
+        "What cables are made of.", &TopKeys::cable_types},
+       {"points", later(points_form()), absent("none"), "Points where cables end.", &TopKeys::points},
+       {"bodies", later(bodies_form()), absent("none"), "Rigid bodies.", &TopKeys::bodies},
+       {"cables", later(cables_form()), absent("none"), "Cables.", &TopKeys::cables},
+       {"nets", later(nets_form()), absent("none"), "Nets.", &TopKeys::nets},
+       {"initial", choice<Initial>(), absent("rest; static in a scene without time"),
+        "Whether a run starts as drawn (rest) or from the equilibrium (static).", &TopKeys::initial},
+       {"time", later(time_form()), absent("the equilibrium is the result"), "How the scene goes through time.",
+        &TopKeys::time},
+       {"accuracy", number("", between(1e-4, 0.1)), absent("elements and time.step are given"),
+        "The error of each quantity of the history that is wanted, of its range. Elements and the step that are "
+        "absent are chosen for it, by runs with coarser ones.",
+        &TopKeys::accuracy},
+       {"output", later(output_form()), absent("100 frames and an empty history"), "What is written.",
+        &TopKeys::output}});
   return table;
 }
 
@@ -86,14 +92,15 @@ Scene read_scene(const std::string& text, const std::string& file) {
   scene.file = file;
   scene.text = text;
   scene.title = keys.title;
+  scene.accuracy = keys.accuracy;
   if (keys.environment) read_environment(*keys.environment, scene);
   scene.is_static = !keys.time;
   scene.starts_static = starts_static(top, keys);
-  if (keys.time) scene.time = read_time(*keys.time);
+  if (keys.time) scene.time = read_time(*keys.time, scene);
   scene.cable_types = types_of(top, keys, scene, names.types);
   if (keys.points) points = read_points(*keys.points, scene.time);
   if (keys.bodies) bodies = read_bodies(*keys.bodies);
-  if (keys.cables) cables = read_cables(*keys.cables, names.types);
+  if (keys.cables) cables = read_cables(*keys.cables, scene, names.types);
   if (keys.nets) scene.nets = read_nets(*keys.nets, names.types, names.nets);
   if (cables.empty() && scene.nets.empty() && bodies.empty())
     top.map().fail(

@@ -57,7 +57,7 @@ void check_polyline(const Value& value, const Cable& cable) {
   for (std::size_t i = 1; i < points.size(); ++i) {
     const double piece = (points[i] - points[i - 1]).norm();
     length += piece;
-    if (piece == 0 && points.size() == static_cast<std::size_t>(cable.elements) + 1)
+    if (piece == 0 && cable.elements > 0 && points.size() == static_cast<std::size_t>(cable.elements) + 1)
       value.fail(
           fmt::format("rows {} and {} coincide, and each row is a node here; expected elements of some length. "
                       "Move or remove one.",
@@ -80,6 +80,10 @@ void read_shape(const Value& value, Cable& cable) {
 }
 
 void read_node_velocity(const Value& value, Cable& cable) {
+  if (cable.elements == 0) {
+    cable.node_velocity = read_vectors(value, 2, "m/s");
+    return;
+  }
   const auto rows = static_cast<std::size_t>(cable.elements) + 1;
   const std::string expected = fmt::format("a list of {} rows [u, v, w] [m/s], one per node (elements + 1)", rows);
   if (read_list(value, expected).size() != rows) value.refuse(expected, "Correct the rows or elements.");
@@ -117,7 +121,8 @@ const Table<CableKeys> cable_table(
      {"tension", number("N", above(0)), absent("length holds"),
       "Instead of length: what pulls at `from` in the equilibrium; the unstretched length is found by it.",
       &CableKeys::tension},
-     {"elements", integer(1), required, "How many elements the cable is divided into.", &CableKeys::elements},
+     {"elements", integer(1), absent("required without accuracy, which chooses them"),
+      "How many elements the cable is divided into.", &CableKeys::elements},
      {"shape", later(shape_form()), absent("straight"),
       "How the cable is drawn: straight; catenary, as it hangs without stretch, upwards where it floats, and lying on "
       "the "
@@ -125,15 +130,18 @@ const Table<CableKeys> cable_table(
       "elements + 1.",
       &CableKeys::given_shape},
      {"node_velocity",
-      later(list_form("a list of rows [u, v, w] [m/s], one per node (elements + 1)", vector("m/s").form, 2)),
+      later(list_form("a list of rows [u, v, w] [m/s], one per node (elements + 1); evenly from end to end where "
+                      "elements are absent",
+                      vector("m/s").form, 2)),
       absent("linear between the velocities of the ends"), "The velocity of each node at the start.",
       &CableKeys::given_velocity},
      {"repeat", Kind<Repeat>{section_form(repeat_table), read_repeat, nullptr}, absent("one cable"),
       "Copies of the cable.", &CableKeys::repeat}});
 
-CableDraft read_cable(const Named& named, const Names& types) {
+CableDraft read_cable(const Named& named, const Scene& scene, const Names& types) {
   CableKeys cable;
   const Section section = read_rows(named.value, cable_table, cable);
+  if (!scene.accuracy) section.require("elements", ", as there is no accuracy by which they are chosen");
   if (cable.length && cable.tension)
     section.find("tension")->refuse("no tension beside length, as the length is found by it", "Remove one of them.");
   cable.name = named.name;
@@ -148,9 +156,10 @@ CableDraft read_cable(const Named& named, const Names& types) {
 
 Form cables_form() { return map_form("a map from names to cables", section_form(cable_table)); }
 
-std::vector<CableDraft> read_cables(const Value& value, const Names& types) {
+std::vector<CableDraft> read_cables(const Value& value, const Scene& scene, const Names& types) {
   std::vector<CableDraft> cables;
-  for (const Named& named : read_named(value, cables_form().expected)) cables.push_back(read_cable(named, types));
+  for (const Named& named : read_named(value, cables_form().expected))
+    cables.push_back(read_cable(named, scene, types));
   return cables;
 }
 

@@ -41,7 +41,8 @@ const Table<TimeKeys> time_table(
     "How the scene goes through time.",
     {{"start", number("s"), standard, "The time at the start.", &TimeKeys::start},
      {"end", number("s"), required, "The time at the end, which is later than start.", &TimeKeys::end},
-     {"step", number("s", above(0)), required, "The time step; the first one where it is adaptive.", &TimeKeys::step},
+     {"step", number("s", above(0)), absent("required without accuracy, which chooses it"),
+      "The time step; the first one where it is adaptive.", &TimeKeys::step},
      {"adaptive", later(section_form(adaptive_table)), absent("all steps are equal"),
       "Lets the step follow the motion.",
       [](Time& time, const Value& value) { time.tolerance = read_tolerance(value); }},
@@ -63,6 +64,7 @@ void check_steps(const Section& section, const Time& time) {
   if (!(time.end > time.start))
     section.find("end")->refuse(fmt::format("a number > start, which is {} [s]", time.start), "Correct end or start.");
   const double duration = time.end - time.start;
+  if (section.find("step") == nullptr) return;
   const Value& step = *section.find("step");
   if (time.step > duration * (1 + 1e-12))
     step.refuse(fmt::format("a number <= end - start, which is {} [s]", duration), "Make the step smaller.");
@@ -156,9 +158,10 @@ void read_stiffness(const Value& value, const Scene& scene, const SceneNames& na
 Form time_form() { return section_form(time_table); }
 Form output_form() { return section_form(output_table); }
 
-Time read_time(const Value& value) {
+Time read_time(const Value& value, const Scene& scene) {
   TimeKeys time;
   const Section section = read_rows(value, time_table, time);
+  if (!scene.accuracy) section.require("step", ", as there is no accuracy by which it is chosen");
   check_steps(section, time);
   settle_scheme(time);
   return time;

@@ -44,6 +44,50 @@ TEST(NodeArcs, ManyTapsOnTheEvenGridKeepIt) {
   for (std::size_t i = 0; i < arcs.size(); ++i) EXPECT_NEAR(arcs[i], 0.1 * static_cast<double>(i), 1e-11);
 }
 
+TEST(NodeArcs, ADensityGradesThem) {
+  const std::vector<double> density{1, 1, 3, 3};
+  const std::vector<double> arcs = node_arcs(8, 16, {}, density);
+  ASSERT_EQ(arcs.size(), 17u);
+  for (std::size_t i = 0; i <= 4; ++i) EXPECT_NEAR(arcs[i], static_cast<double>(i), 1e-12);
+  for (std::size_t i = 4; i <= 16; ++i) EXPECT_NEAR(arcs[i], 4 + static_cast<double>(i - 4) / 3, 1e-12);
+  // Taps keep their nodes, and a density that is everywhere alike is none.
+  const std::vector<double> taps{2.5, 7.9};
+  const std::vector<double> tapped = node_arcs(8, 16, taps, density);
+  ASSERT_EQ(tapped.size(), 17u);
+  for (const double tap : taps) EXPECT_EQ(tapped[static_cast<std::size_t>(node_at(tapped, tap))], tap);
+  for (std::size_t i = 1; i < tapped.size(); ++i) EXPECT_GT(tapped[i], tapped[i - 1]);
+  const std::vector<double> alike = node_arcs(8, 16, taps, {2, 2, 2}), even_ones = node_arcs(8, 16, taps);
+  for (std::size_t i = 0; i < alike.size(); ++i) EXPECT_NEAR(alike[i], even_ones[i], 1e-12);
+  EXPECT_THROW(node_arcs(8, 2, taps, density), InputError);
+}
+
+TEST(RemeshedShape, KeepsTheStretchThatWasDrawn) {
+  // A chain of 40 links on a parabola, stretched by 0.1 % at one end and not at the other.
+  const int links = 40;
+  const double link = 1;
+  std::vector<Vector3> line{{0, 0, 0}};
+  for (int i = 0; i < links; ++i) {
+    const double slope = 2.0 * i / links - 1;
+    line.push_back(line.back() + link * (1 + 1e-3 * i / links) * Vector3(1, 0, slope).normalized());
+  }
+  for (const int elements : {7, 13, 40, 160}) {
+    const std::vector<double> arcs = even(links * link, elements);
+    const std::vector<Vector3> points = remeshed_shape(line, arcs);
+    EXPECT_LE((points.front() - line.front()).norm() + (points.back() - line.back()).norm(), 1e-12);
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      const double middle = (arcs[i] + arcs[i - 1]) / 2 / (links * link);
+      const double stretch = (points[i] - points[i - 1]).norm() / (arcs[i] - arcs[i - 1]) - 1;
+      EXPECT_NEAR(stretch, 1e-3 * middle, 3e-5) << elements << " elements, " << i;
+    }
+  }
+}
+
+TEST(RemeshedShape, LiesOnTheLineOfAPolylineThatIsNoMesh) {
+  const std::vector<Vector3> line{{0, 0, 0}, {3, 0, 0}, {3, 4, 0}};
+  const std::vector<Vector3> points = remeshed_shape(line, even(7, 2));
+  EXPECT_LE((points[1] - Vector3(3, 0.5, 0)).norm(), 1e-12);
+}
+
 TEST(PolylineShape, NodesLieEvenlyByLengthOrOnePerPoint) {
   const std::vector<Vector3> line{{0, 0, 0}, {3, 0, 0}, {3, 4, 0}, {3, 4, -5}};
   const std::vector<Vector3> even_ones = polyline_shape(line, even(24, 6));

@@ -12,6 +12,7 @@ class SceneText {
 public:
   explicit SceneText(const scene::Scene& scene) {
     text_.precision(17);
+    add(scene.accuracy);
     add(scene.title, scene.gravity, scene.is_static, scene.starts_static);
     if (scene.fluid) add(*scene.fluid);
     if (scene.bed) add(*scene.bed);

@@ -155,7 +155,8 @@ bool changes_the_scene(const Known& known) {
 }
 
 TEST(Keys, EveryKeyIsDocumented) {
-  const std::set<std::string> pure = {"environment.seabed.friction",
+  const std::set<std::string> pure = {"accuracy",
+                                      "environment.seabed.friction",
                                       "cable_types.*.normal_drag",
                                       "cable_types.*.tangential_drag",
                                       "cable_types.*.added_mass",

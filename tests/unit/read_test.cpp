@@ -95,7 +95,7 @@ TEST(Read, TopLevelKeys) {
   EXPECT_EQ(scene.title, "Every key that a scene may hold");
   EXPECT_EQ(scene.gravity, 9.81);
   EXPECT_EQ(scene.file, "everything.yaml");
-  EXPECT_EQ(scene.text.substr(0, 6), "title:");
+  EXPECT_EQ(scene.text.substr(0, 9), "accuracy:");
   EXPECT_EQ(with_time("end: 1, step: 1").gravity, 9.80665);
 }
 

@@ -42,7 +42,16 @@ struct Report {
   std::vector<Pretension> pretensions;
   std::optional<Statics> statics;          ///< where there was an equilibrium to find
   std::vector<NamedStiffness> stiffness;   ///< in that equilibrium, where the scene asks for it
-  std::optional<EnergyReport> energy;      ///< where accounts were kept
+  /// What was chosen for the accuracy that the scene asks for, and what came of it.
+  struct Accuracy {
+    double wanted, estimated;                            ///< of the range of a quantity
+    std::string quantity;                                ///< the worst one
+    std::vector<std::pair<std::string, int>> elements;   ///< of the cables whose elements were chosen
+    std::string stepping;
+    std::string note;   ///< why it is not reached; empty: it is
+  };
+  std::optional<Accuracy> accuracy;
+  std::optional<EnergyReport> energy;   ///< where accounts were kept
   /// A part of the run, with its wall time and its time of computing [s].
   struct Phase {
     std::string name;
@@ -50,6 +59,15 @@ struct Report {
     double cpu = 0;
   };
   std::vector<Phase> phases;
+};
+
+/// While one lives, nothing is said.
+class Silence {
+public:
+  Silence();
+  ~Silence();
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
 };
 
 /// Says on rank 0 what is worth a line.

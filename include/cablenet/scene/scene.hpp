@@ -80,10 +80,12 @@ struct Cable {
   CableEnd to = PointEnd{0};
   std::optional<double> length;    ///< unstretched [m]; none: the distance between the drawn ends
   std::optional<double> tension;   ///< at `from` in the equilibrium [N], by which the length is found
-  int elements = 0;
+  int elements = 0;                ///< 0: Scene::accuracy asks that they be chosen
+  bool has_chosen_mesh = false;    ///< The elements were chosen, so that rows of the file are no nodes.
+  std::vector<double> density;     ///< of elements, relative, in equal parts of the cable; empty: everywhere alike
   Shape shape = Shape::straight;
   std::vector<Vector3> polyline;        ///< when shape is polyline, from end to end
-  std::vector<Vector3> node_velocity;   ///< empty, or one per node
+  std::vector<Vector3> node_velocity;   ///< empty, or one per node, or evenly from end to end of a chosen mesh
 };
 
 struct Scene {
@@ -101,6 +103,7 @@ struct Scene {
   bool is_static = false;       ///< no `time`: the equilibrium is the result
   bool starts_static = false;   ///< from the equilibrium under the loads at time.start; true where is_static
   Time time;
+  std::optional<double> accuracy;   ///< wanted of each quantity, of its range; none: mesh and step are as given
   Output output;
   std::vector<std::string> notes;   ///< what is allowed but perhaps not meant: "file:line: key: text"
 };

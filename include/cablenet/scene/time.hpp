@@ -16,7 +16,8 @@ inline constexpr std::array<Choice<Scheme>, 3> choices<Scheme>{{{Scheme::energy_
 struct Time {
   double start = 0;   ///< [s]
   double end = 0;     ///< [s]
-  double step = 0;    ///< of time; the first one where the step is adaptive [s]
+  double step =
+      0;   ///< of time; the first one where the step is adaptive; 0: Scene::accuracy asks that it be chosen [s]
   Scheme scheme = Scheme::energy_momentum;
   double spectral_radius = 1;
   double axial_dissipation = 0;           ///< xi of energy_momentum: 0 where the scene asks that nothing be removed

@@ -1,0 +1,35 @@
+#pragma once
+#include <string>
+#include <vector>
+
+/// The history of a run, and how far two of them differ.  Tests: tests/parallel/accuracy_test.cpp
+namespace cablenet::accuracy {
+
+/// Rows of the columns that output::Probes names; the first one is the time.
+struct HistoryTable {
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> rows;
+};
+
+/// What the error of each column is divided by.
+/// It is the column's range.  A component of a vector is scaled by a tenth of the largest range of its components at
+/// least, what hardly changes by a thousandth of its size.  In an equilibrium forces are scaled by their size, and
+/// positions by the extent of all of them.  It is 0 for the time, for accelerations, which are means over a step, and
+/// for what does not change.
+std::vector<double> scales(const HistoryTable& table);
+
+/// The root mean square over time of the difference of two histories, per column, over its scale.
+/// @param coarse  its rows are taken linearly between those of its times that `fine` does not have
+/// @param fine    whose range scales
+/// @pre both have the same columns
+std::vector<double> differences(const HistoryTable& coarse, const HistoryTable& fine);
+
+struct Estimate {
+  double error = 0;       ///< infinity where there is nothing to hold a run against
+  std::string quantity;   ///< the worst one
+};
+
+/// The largest error per column, and whose it is.
+Estimate largest(const std::vector<double>& errors, const HistoryTable& table);
+
+}   // namespace cablenet::accuracy

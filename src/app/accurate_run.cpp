@@ -1,0 +1,144 @@
+#include "accurate_run.hpp"
+
+#include <fmt/format.h>
+#include <petscsys.h>
+
+#include <cmath>
+#include <limits>
+
+#include "cablenet/accuracy/search.hpp"
+#include "cablenet/app/simulation.hpp"
+#include "cablenet/base/errors.hpp"
+#include "cablenet/petsc/options.hpp"
+#include "trial.hpp"
+
+namespace cablenet::app {
+namespace {
+
+std::string percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
+
+std::string describe(const accuracy::Stepping& stepping) {
+  if (stepping.tolerance) return fmt::format("adaptive steps with a tolerance of {:.3g} m", *stepping.tolerance);
+  return fmt::format("steps of {:.6g} s", stepping.step);
+}
+
+/// Options would keep the steps of all runs from being what is tried.
+void refuse_step_options(const scene::Scene& scene) {
+  if (scene.is_static || scene.time.step > 0) return;
+  for (const char* name : {"-ts_dt", "-ts_adapt_type", "-ts_max_steps"})
+    if (petsc::has_option(name, nullptr))
+      throw InputError(fmt::format("{}: is not allowed where `accuracy` chooses the steps; give time.step", name));
+}
+
+std::string words(const accuracy::Estimate& found) {
+  if (!std::isfinite(found.error)) return "nothing is known of the error";
+  return fmt::format("estimated {} of the range of {}", percent(found.error), found.quantity);
+}
+
+class AccurateRun {
+public:
+  AccurateRun(const scene::Scene& scene, const std::string& directory)
+      : scene_(scene),
+        directory_(directory),
+        search_(
+            scene, [this](const accuracy::Mesh& mesh, const accuracy::Fineness& sizes) { return look(mesh, sizes); },
+            [this] { return bends_; }) {}
+
+  int run() {
+    tell(fmt::format("{}: accuracy {}: coarse runs tell what it needs", scene_.file, percent(*scene_.accuracy)));
+    search_.choose();
+    for (;;) {
+      const scene::Scene made = accuracy::made(scene_, search_.mesh(), search_.chosen());
+      const int status = simulate(made, directory_, [&](accuracy::Trial run) { return judge(made, std::move(run)); });
+      if (status != 0 || !last_.is_done || !search_.can_refine()) return status;
+      search_.refine(std::move(last_));
+      last_ = {};
+      tell("the run errs by more than is wanted: once more, with finer sizes");
+    }
+  }
+
+private:
+  accuracy::Trial look(const accuracy::Mesh& mesh, const accuracy::Fineness& sizes) {
+    scene::Scene made = accuracy::made(scene_, mesh, sizes);
+    made.output.interval = accuracy::interval_of_rows(scene_);
+    CoarseRun found = run_coarsely(made);
+    bends_ = std::move(found.bends);
+    std::string text = mesh.is_given() ? "" : fmt::format("{} elements", elements_of(mesh, sizes));
+    if (search_.chooses_steps()) text += (text.empty() ? "" : ", ") + describe(sizes.stepping);
+    tell(fmt::format("  looked at {}{}", text, found.trial.is_done ? "" : ": it did not come to its end"));
+    return std::move(found.trial);
+  }
+
+  static int elements_of(const accuracy::Mesh& mesh, const accuracy::Fineness& sizes) {
+    int sum = 0;
+    for (const auto& [cable, number] : mesh.counts(sizes.elements)) sum += number;
+    return sum;
+  }
+
+  Report::Accuracy judge(const scene::Scene& made, accuracy::Trial run) {
+    const accuracy::Estimate found = search_.estimate(run);
+    last_ = std::move(run);
+    Report::Accuracy report{*scene_.accuracy, found.error, found.quantity, {}, "", ""};
+    for (const auto& [cable, number] : search_.mesh().counts(search_.chosen().elements))
+      report.elements.emplace_back(made.cables[cable].name, number);
+    if (search_.chooses_steps()) report.stepping = describe(search_.chosen().stepping);
+    tell(fmt::format("accuracy: {}{}", words(found), scope()));
+    if (!search_.is_reached() && !search_.can_refine())
+      report.note = fmt::format(
+          "the accuracy of {} is not reached: {}. Finer runs do not bring that down as they should: the motion has "
+          "jumps or vibrations that no mesh or step resolves, or is chaotic. `cablenet chart` shows what can be had",
+          percent(*scene_.accuracy), words(found));
+    return report;
+  }
+
+  /// What the estimate is of, where that is not all.
+  std::string scope() const {
+    std::string text;
+    if (search_.mesh().is_given()) text = ", by steps alone, as elements are given";
+    if (!scene_.is_static && !search_.chooses_steps()) text = ", by elements alone, as time.step is given";
+    if (!scene_.nets.empty()) text += "; what nets err by is not in it";
+    return text;
+  }
+
+  const scene::Scene& scene_;
+  const std::string& directory_;
+  accuracy::Search search_;
+  std::vector<std::vector<double>> bends_;
+  accuracy::Trial last_;
+};
+
+/// The run with sizes that are all given, held against one with half the elements and twice the step.
+int simulate_held_against_half(const scene::Scene& scene, const std::string& directory) {
+  tell(
+      fmt::format("{}: accuracy {}: elements and step are given; a run with half the elements and twice the step tells "
+                  "what they err by",
+                  scene.file, percent(*scene.accuracy)));
+  const accuracy::Trial half = run_coarsely(accuracy::halved(scene)).trial;
+  return simulate(scene, directory, [&](const accuracy::Trial& run) {
+    accuracy::Estimate found{std::numeric_limits<double>::infinity(), ""};
+    if (half.is_done) found = accuracy::largest(accuracy::differences(half.history, run.history), run.history);
+    found.error /= 3;
+    tell(fmt::format("accuracy: {}", words(found)));
+    Report::Accuracy report{*scene.accuracy, found.error, found.quantity, {}, "", ""};
+    if (found.error > 1.5 * *scene.accuracy)
+      report.note = fmt::format(
+          "the accuracy of {} is not reached: {}. Leave out elements and time.step, and they are "
+          "chosen for it",
+          percent(*scene.accuracy), words(found));
+    return report;
+  });
+}
+
+}   // namespace
+
+int simulate_accurately(const scene::Scene& scene, const std::string& directory) {
+  if (!accuracy::is_open(scene)) return simulate_held_against_half(scene, directory);
+  refuse_step_options(scene);
+  return AccurateRun(scene, directory).run();
+}
+
+scene::Scene first_choice(const scene::Scene& scene) {
+  return accuracy::made(scene, accuracy::Mesh(scene), accuracy::first_sizes(scene));
+}
+
+}   // namespace cablenet::app
