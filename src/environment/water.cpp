@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace cablenet::environment {
 namespace {
@@ -97,6 +98,34 @@ WaterMotion water_motion(const Fluid& fluid, const Vector3& x, double t) {
     add_orbit(wave, at, omega * s, -omega * c, motion.acceleration, motion.acceleration_slope);
   }
   return motion;
+}
+
+std::vector<std::size_t> faint_waves(const Fluid& fluid, double z, double share) {
+  using Measures = Eigen::Array3d;   // velocity, acceleration, elevation
+  if (fluid.waves.empty()) return {};
+  const bool is_at_surface = z >= *fluid.surface - fluid.reach();
+  std::vector<Measures> all;
+  Measures sum = Measures::Zero();
+  for (const Wave& wave : fluid.waves) {
+    const double speed =
+        wave.amplitude * wave.frequency * decay(wave.number, fluid.depth, z - *fluid.surface).horizontal;
+    all.emplace_back(speed, speed * wave.frequency, is_at_surface ? wave.amplitude : 0);
+    sum += all.back();
+  }
+  for (Measures& measures : all) measures = (sum > 0).select(measures / sum, 0);
+  std::vector<std::size_t> order(all.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return all[a].maxCoeff() < all[b].maxCoeff(); });
+  Measures left_out = Measures::Zero();
+  std::vector<std::size_t> faint;
+  for (const std::size_t i : order) {
+    left_out += all[i];
+    if (left_out.maxCoeff() > share) break;
+    faint.push_back(i);
+  }
+  std::sort(faint.begin(), faint.end());
+  return faint;
 }
 
 SurfaceHeight surface_height(const Fluid& fluid, const Vector3& x, double t) {

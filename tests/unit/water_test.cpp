@@ -142,6 +142,27 @@ TEST_P(WaterDerivatives, AreThoseOfTheValues) {
 INSTANTIATE_TEST_SUITE_P(Depths, WaterDerivatives, testing::Values(11.5, 60.0, 8000.0));
 
 /// In linear theory the elevation rises with the water's vertical velocity at the still surface.
+TEST(FaintWaves, AreThoseThatTogetherAddLessThanTheShare) {
+  Fluid fluid = sea(50);
+  using Indices = std::vector<std::size_t>;
+  EXPECT_EQ(faint_waves(fluid, 0.3, 1e-3), Indices{});
+  fluid.waves = {wave(1e-3, 6, 50, 0, 0), wave(2, 8, 50, 0, 0), wave(1e-3, 7, 50, 0, 0)};
+  // Of the velocity they have 0.67 and 0.57 parts of a thousand: only the fainter one stays below one thousandth.
+  EXPECT_EQ(faint_waves(fluid, 0.3, 1e-3), Indices{2});
+  EXPECT_EQ(faint_waves(fluid, 0.3, 2e-3), (Indices{0, 2}));
+  fluid.waves[2].amplitude = 0;
+  EXPECT_EQ(faint_waves(fluid, 0.3, 1e-4), Indices{2});
+}
+
+TEST(FaintWaves, DeepDownShortWavesAreFaint) {
+  Fluid fluid = sea(50);
+  fluid.waves = {wave(2, 12, 50, 0, 0), wave(2, 3, 50, 0, 0)};
+  EXPECT_TRUE(faint_waves(fluid, 0.3, 1e-3).empty());
+  // k = 0.447: e^(-0.447 20) = 1.3e-4 of twice the speed and eight times the acceleration.
+  EXPECT_EQ(faint_waves(fluid, -20, 5e-3), std::vector<std::size_t>{1});
+  EXPECT_TRUE(faint_waves(fluid, -5, 5e-3).empty());
+}
+
 TEST(SurfaceHeight, MovesWithTheWater) {
   Fluid fluid = sea(12);
   fluid.current.clear();

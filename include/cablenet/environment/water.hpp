@@ -1,4 +1,6 @@
 #pragma once
+#include <vector>
+
 #include "cablenet/base/linear_algebra.hpp"
 #include "cablenet/environment/fluid.hpp"
 
@@ -29,6 +31,11 @@ struct WaterMotion {
   Matrix3 acceleration_slope = Matrix3::Zero();   ///< [1/s^2]
 };
 WaterMotion water_motion(const Fluid&, const Vector3& x, double t);
+
+/// The faintest waves that add at most `share` of all waves' velocity and of their acceleration, and where the surface
+/// may come to z of its elevation, each taken at its largest and at the height z.  Indices into Fluid::waves,
+/// ascending.
+std::vector<std::size_t> faint_waves(const Fluid&, double z, double share);
 
 /// The height of the free surface on the vertical through x, and its derivative by x.  @pre the fluid has a surface
 struct SurfaceHeight {
