@@ -114,6 +114,17 @@ void emit_stiffness(YAML::Emitter& yaml, const std::vector<NamedStiffness>& all)
   yaml << YAML::EndMap << YAML::EndMap;
 }
 
+void emit_economy(YAML::Emitter& yaml, const Economy& economy) {
+  yaml << YAML::Key << "economy" << YAML::Value << YAML::BeginMap;
+  yaml << YAML::Key << "sentences" << YAML::Value << economy.sentences;
+  if (!economy.elements.empty()) {
+    yaml << YAML::Key << "elements_for_1_percent" << YAML::Value << YAML::BeginMap;
+    for (const auto& [cable, elements] : economy.elements) yaml << YAML::Key << cable << YAML::Value << elements;
+    yaml << YAML::EndMap;
+  }
+  yaml << YAML::EndMap;
+}
+
 void emit_solution(YAML::Emitter& yaml, const Report& report) {
   if (report.statics) emit_statics(yaml, *report.statics);
   if (!report.pretensions.empty()) emit_pretensions(yaml, report.pretensions);
@@ -126,6 +137,7 @@ void emit_solution(YAML::Emitter& yaml, const Report& report) {
   yaml << YAML::Key << "linear_iterations" << YAML::Value << report.counts.linear;
   if (report.energy) emit_energy(yaml, *report.energy);
   if (report.accuracy) emit_accuracy(yaml, *report.accuracy);
+  if (!report.economy.sentences.empty()) emit_economy(yaml, report.economy);
   emit_seconds(yaml, "wall_seconds", report.phases, &Report::Phase::wall);
   emit_seconds(yaml, "cpu_seconds", report.phases, &Report::Phase::cpu);
 }
@@ -151,6 +163,11 @@ void add_note(Report& report, const std::string& text) {
   if (text.empty()) return;
   if (speaks()) fmt::print(stderr, "cablenet: note: {}\n", text);
   report.notes.push_back(text);
+}
+
+void tell_economy(Report& report, const Economy& economy) {
+  for (const std::string& sentence : economy.sentences) tell("economy: " + sentence);
+  report.economy = economy;
 }
 
 std::string scene_hash(const scene::Scene& scene) {

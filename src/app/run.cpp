@@ -19,6 +19,7 @@
 #include "cablenet/base/floating_point.hpp"
 #include "cablenet/network/build.hpp"
 #include "cablenet/network/drawn_notes.hpp"
+#include "cablenet/network/economy.hpp"
 #include "cablenet/petsc/options.hpp"
 #include "cablenet/petsc/session.hpp"
 #include "cablenet/scene/read.hpp"
@@ -85,8 +86,11 @@ int check_scene(const CommandLine& line) {
   if (this_rank() != 0) return 0;
   for (const std::string& note : network::drawn_notes(scene, network)) fmt::print(stderr, "cablenet: note: {}\n", note);
   fmt::print("{}: valid: {}\n", line.scene, describe(scene, network));
-  if (is_open)
+  if (is_open) {
     fmt::print("This is its first coarse run: elements and steps are chosen for its accuracy when it is run.\n");
+    return 0;
+  }
+  for (const std::string& sentence : network::drawn_economy(scene, network)) fmt::print("economy: {}\n", sentence);
   return 0;
 }
 

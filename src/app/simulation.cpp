@@ -13,6 +13,7 @@
 #include "cablenet/network/drawn_notes.hpp"
 #include "cablenet/output/frames.hpp"
 #include "cablenet/output/probes.hpp"
+#include "cablenet/output/shape_record.hpp"
 #include "cablenet/petsc/solver_types.hpp"
 #include "cablenet/solve/energy_watch.hpp"
 #include "cablenet/solve/relaxation.hpp"
@@ -90,6 +91,7 @@ private:
     frames_.emplace(network_, partition_, *assembler_);
     probes_.emplace(scene_, network_, *assembler_);
     if (judge_) record_.emplace(scene_, network_, *assembler_);
+    shapes_.emplace(network_, scene_.cables.size(), assembler_->network(), PETSC_COMM_WORLD);
     output::Series::Options options;
     options.scene_hash = scene_hash(scene_);
     options.version = CABLENET_VERSION;
@@ -123,6 +125,7 @@ private:
     finish_output();
     report_.scheme = "static";
     report_.linear_solver = equilibrium_->linear_solver();
+    if (found) tell_economy(report_, economy_of(scene_, network_, shapes_->summary(), std::nullopt, 0));
     return conclude(found ? solve::Verdict::finished : solve::Verdict::failed, equilibrium_->advice());
   }
 
@@ -158,6 +161,8 @@ private:
     for (const std::string& text : tension_notes(scene_, network_, *assembler_, total_share)) add_note(report_, text);
     if (steps)
       for (const std::string& text : step_notes(*steps, report_.counts, lost)) add_note(report_, text);
+    if (verdict == solve::Verdict::finished)
+      tell_economy(report_, economy_of(scene_, network_, shapes_->summary(), steps, lost));
     if (dynamics_->has_gained_energy())
       report_.message = fmt::format("at t = {:.9g} s {}", report_.reached, describe_gain(*report_.energy));
     else if (verdict == solve::Verdict::failed)
@@ -173,6 +178,7 @@ private:
       assembler_->look_at_energy();
       if (record_) record_->look(state);
       if (record_ && !accuracy::is_written(scene_, instant.t)) return;
+      shapes_->look(state);
       const std::vector<double>& row = probes_->row(state);
       if (history_) history_->write(row);
       series_->write(frames_->collect(state, instant.step));
@@ -264,6 +270,7 @@ private:
   std::optional<output::Frames> frames_;
   std::optional<output::Probes> probes_;
   std::optional<HistoryRecord> record_;   ///< where somebody judges the run
+  std::optional<output::ShapeRecord> shapes_;
   std::optional<output::Series> series_;
   std::optional<output::History> history_;   ///< rank 0
   Report report_;

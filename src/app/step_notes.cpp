@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cablenet/app/run_notes.hpp"
@@ -54,6 +55,13 @@ std::string adds_up_too_far(const solve::StepFindings& steps, double run_share) 
 }
 
 }   // namespace
+
+double step_for_accuracy(const solve::StepFindings& steps, double lost) {
+  const double run_share = steps.total_share() + steps.lag(std::abs(lost));
+  double step = steps.share() > 0 ? steps.step_for(steps.adds_up() ? good_of_motion : good_in_water) : 0;
+  if (run_share > 0) step = std::min(step, step_for_run(steps, run_share));
+  return step;
+}
 
 std::vector<std::string> step_notes(const solve::StepFindings& steps, const solve::Counts& counts, double lost) {
   std::vector<std::string> notes;

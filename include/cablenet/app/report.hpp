@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "cablenet/app/economy.hpp"
 #include "cablenet/app/energy_report.hpp"
 #include "cablenet/app/stiffness.hpp"
 #include "cablenet/network/network.hpp"
@@ -52,6 +53,7 @@ struct Report {
   };
   std::optional<Accuracy> accuracy;
   std::optional<EnergyReport> energy;   ///< where accounts were kept
+  Economy economy;                      ///< of a run that finished
   /// A part of the run, with its wall time and its time of computing [s].
   struct Phase {
     std::string name;
@@ -74,6 +76,9 @@ public:
 void tell(const std::string& text);
 /// Says on rank 0, and keeps, what a user should know.  An empty text is none.
 void add_note(Report& report, const std::string& text);
+
+/// Says on rank 0, and keeps, what the scene could do without.
+void tell_economy(Report& report, const Economy& economy);
 
 /// 128-bit XXH3 of the scene's text, in hexadecimal.
 std::string scene_hash(const scene::Scene& scene);
