@@ -80,6 +80,8 @@ private:
   void say(const std::string& sentence) {
     if (!sentence.empty()) found_.sentences.push_back(sentence);
   }
+  double height_above_bed() const;
+
   void say_straight();
   void say_fewer();
   void say_more();
@@ -177,16 +179,28 @@ void Economist::say_bodies() {
 }
 
 void Economist::say_surroundings() {
-  if (!scene_.fluid || !scene_.fluid->surface) return;
-  say(network::faint_waves(scene_, shapes_.highest, fmt::format("at the highest node, z = {:.3g} m", shapes_.highest)));
-  if (is_dry())
-    say(fmt::format("no environment.fluid would do: no node came lower than {:.3g} m above the surface",
-                    shapes_.lowest - *scene_.fluid->surface));
+  if (scene_.fluid && scene_.fluid->surface) {
+    say(network::faint_waves(scene_, shapes_.highest,
+                             fmt::format("at the highest node, z = {:.3g} m", shapes_.highest)));
+    if (is_dry())
+      say(fmt::format("no environment.fluid would do: no node came lower than {:.3g} m above the surface",
+                      shapes_.lowest - *scene_.fluid->surface));
+  }
+  if (scene_.bed && height_above_bed() > 0)
+    say(fmt::format("no environment.seabed would do: nothing came nearer to it than {:.3g} m", height_above_bed()));
+}
+
+/// Of the lowest node, or less by the largest radius that may touch the bed there.  [m]
+double Economist::height_above_bed() const {
+  double radius = 0;
+  for (const auto& spot : network_.bed_spots) radius = std::max(radius, spot.radius);
+  for (const auto& cable : network_.surroundings.on_bed) radius = std::max(radius, cable.diameter);
+  return shapes_.lowest - scene_.bed->level - radius;
 }
 
 /// Where errors add up, or cables hit the bed, tensions may want shorter steps than the motion does.
 void Economist::say_steps(const solve::StepFindings& steps, double lost) {
-  if (steps.is_adaptive || steps.adds_up() || is_dry() || (scene_.bed && shapes_.lowest <= scene_.bed->level)) return;
+  if (steps.is_adaptive || steps.adds_up() || is_dry() || (scene_.bed && height_above_bed() <= 0)) return;
   const double interval = scene_.output.interval;
   double good = step_for_accuracy(steps, lost) / steps_margin;
   if (interval > 0) good = std::min(good, interval);

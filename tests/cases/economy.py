@@ -194,6 +194,11 @@ def surroundings(case):
     [metres] = case.says(dry, r"^no environment.fluid would do: no node came lower than (\S+) m above the surface$")
     expect(10 < float(metres) < 30, f"{metres} m above the surface")
     case.says(bungee(kind=rope, fluid={"density": 1025, "surface": -21}), ranks=(1,))
+    bed = {"stiffness": 1e5, "damping": 1e4}
+    [metres] = case.says(bungee(kind=rope, seabed={"level": -60, **bed}),
+                         r"^no environment.seabed would do: nothing came nearer to it than (\S+) m$")
+    expect(10 < float(metres) < 40, f"{metres} m above the bed")
+    case.says(bungee(kind=rope, seabed={"level": -20.1, **bed}), ranks=(1,))
 
 
 def steps(case):
