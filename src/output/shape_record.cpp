@@ -16,16 +16,13 @@ double angle_between(const Quaternion& a, const Quaternion& b) {
   return 2 * std::atan2(turn.vec().norm(), std::abs(turn.w()));
 }
 
-/// The distance of x from the line through two points, or from the point that both are.  [m]
-double distance_from_line(const Vector3& x, const Vector3& from, const Vector3& to) {
-  const Vector3 way = x - from, line = to - from;
-  const double length = line.norm();
-  return length > 0 ? way.cross(line).norm() / length : way.norm();
-}
-
 void all_reduce(std::vector<double>& values, MPI_Op operation, MPI_Comm communicator) {
   MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, operation, communicator);
 }
+
+/// So many instants are all looked at; of those after them every second one, so that it costs less than 1 % even where
+/// all steps are written.
+constexpr long looks_at_all = 64;
 
 /// What is summed over ranks for each cable.
 enum Kind { nodes, sag, bending, motion, strain, elements, jump, wobble, kinds };
@@ -39,6 +36,8 @@ ShapeRecord::ShapeRecord(const network::Network& network, std::size_t cables, co
     : here_(here),
       communicator_(communicator),
       ends_(6 * cables),
+      lines_(cables),
+      chords_(here.elements.size()),
       strains_(here.elements.size()),
       sums_(cables, {0, 0, 0, -far, far}),
       turned_(network.bodies.size(), 0),
@@ -87,6 +86,7 @@ void ShapeRecord::find_ends(const network::Network& network) {
 }
 
 void ShapeRecord::look(const system::LocalState& state) {
+  if (++shown_ > looks_at_all && shown_ % 2 == 0) return;
   std::fill(ends_.begin(), ends_.end(), 0.0);
   for (const End& end : own_ends_) {
     const Vector3 x = state.position(end.node);
@@ -95,6 +95,7 @@ void ShapeRecord::look(const system::LocalState& state) {
   int ranks = 1;
   MPI_Comm_size(communicator_, &ranks);
   if (ranks > 1) all_reduce(ends_, MPI_SUM, communicator_);
+  for (std::size_t i = 0; i < lines_.size(); ++i) lines_[i] = (end(2 * i + 1) - end(2 * i)).stableNormalized();
   look_at_elements(state);
   for (Inner& inner : inner_) look_at_node(inner, state);
   look_at_bodies(state);
@@ -110,7 +111,10 @@ void ShapeRecord::look_at_elements(const system::LocalState& state) {
   for (std::size_t i = 0; i < here_.elements.size(); ++i) {
     if (cable_of_[i] >= sums_.size()) continue;
     const partition::LocalElement& element = here_.elements[i];
-    strains_[i] = state.chord(element).d.norm() / element.length - 1;
+    const Vector3 d = state.position(element.node[1]) - state.position(element.node[0]);
+    const double l = d.norm();
+    chords_[i] = {l > 0 ? Vector3(d / l) : Vector3(Vector3::Zero()), l};
+    strains_[i] = l / element.length - 1;
     if (i >= at(here_.own_elements)) continue;
     Sums& sums = sums_[cable_of_[i]];
     sums.strain += strains_[i] * strains_[i];
@@ -126,18 +130,17 @@ void ShapeRecord::look_at_elements(const system::LocalState& state) {
 void ShapeRecord::look_at_node(Inner& inner, const system::LocalState& state) {
   Sums& sums = sums_[inner.cable];
   const auto before = at(inner.before), after = at(inner.after);
-  const Vector3 d0 = state.chord(here_.elements[before]).d, d1 = state.chord(here_.elements[after]).d;
-  const double l0 = d0.norm(), l1 = d1.norm();
-  if (l0 > 0 && l1 > 0) {
-    // The angle by its chord: the two differ by a part of theta^2/24.
-    const Vector3 sag = (l0 + l1) / 16 * (d1 / l1 - d0 / l0);
-    inner.sags += sag;
-    inner.squared_sags += sag.squaredNorm();
-  }
-  const Vector3 x = state.position(inner.node), from = end(2 * inner.cable), to = end(2 * inner.cable + 1);
-  sums.deviation = std::max(sums.deviation, distance_from_line(x, from, to));
-  if (instants_ == 0) inner.first = x - from;
-  const Vector3 way = x - from - inner.first;
+  // The angle by its chord: the two differ by a part of theta^2/24.
+  const Vector3 sag =
+      (chords_[before].length + chords_[after].length) / 16 * (chords_[after].direction - chords_[before].direction);
+  inner.sags += sag;
+  inner.squared_sags += sag.squaredNorm();
+  const Vector3 from_end = state.position(inner.node) - end(2 * inner.cable);
+  const Vector3& line = lines_[inner.cable];
+  // Where both ends are in one place there is no line, but that place.
+  sums.deviation = std::max(sums.deviation, (from_end - from_end.dot(line) * line).squaredNorm());
+  if (instants_ == 0) inner.first = from_end;
+  const Vector3 way = from_end - inner.first;
   inner.sum += way;
   inner.squares += way.squaredNorm();
   const double rise = strains_[after] - strains_[before];
@@ -177,7 +180,7 @@ ShapeSummary ShapeRecord::summary() const {
   const std::size_t cables = sums_.size();
   const std::vector<double> sums = this->sums();
   std::vector<double> most{highest_, -lowest_};
-  for (const Sums& one : sums_) most.insert(most.end(), {one.deviation, one.highest, -one.lowest});
+  for (const Sums& one : sums_) most.insert(most.end(), {std::sqrt(one.deviation), one.highest, -one.lowest});
   all_reduce(most, MPI_MAX, communicator_);
   ShapeSummary summary{{}, turned_, most[0], -most[1], instants_};
   all_reduce(summary.turned, MPI_MAX, communicator_);

@@ -117,6 +117,11 @@ TEST_F(Shapes, MeansAreOverTimeAndNodes) {
   EXPECT_NEAR(shape.wobble, strain * std::sqrt(2.0 / 16), 1e-12);
 }
 
+TEST_F(Shapes, OfManyInstantsEverySecondOneIsLookedAt) {
+  for (int i = 0; i < 100; ++i) look();
+  EXPECT_EQ(record_.summary().instants, 64 + 18);
+}
+
 TEST_F(Shapes, ABodyIsTurnedFromWhereItIsDrawn) {
   const system::Vector x = system_.vector(x_), rest = system_.vector(Field(x_.size(), Vector3::Zero()));
   const partition::LocalNetwork& here = system_.assembler.network();

@@ -38,7 +38,7 @@ public:
   ShapeRecord(const network::Network& network, std::size_t cables, const partition::LocalNetwork& here,
               MPI_Comm communicator);
 
-  /// Collective.
+  /// At the first instants, and at every second one after 64.  Collective.
   void look(const system::LocalState& state);
   /// On all ranks alike.  Collective.
   ShapeSummary summary() const;
@@ -61,11 +61,15 @@ private:
     LocalNode node;
     std::size_t place;   ///< in ends_, per three coordinates
   };
+  struct Chord {
+    Vector3 direction;
+    double length;   ///< [m]
+  };
   /// Sums over instants.
   struct Sums {
     double strain = 0;        ///< mean over time and elements
     double elements = 0;      ///< of this rank
-    double deviation = 0;     ///< the largest [m]
+    double deviation = 0;     ///< the largest square [m^2]
     double highest, lowest;   ///< [m]
   };
 
@@ -83,12 +87,14 @@ private:
   std::vector<Inner> inner_;
   std::vector<End> own_ends_;
   std::vector<double> ends_;        ///< where the cables' ends are: first and last end by turns, three doubles each [m]
+  std::vector<Vector3> lines_;      ///< per cable: the direction from its first to its last end
+  std::vector<Chord> chords_;       ///< per local element, at this instant
   std::vector<double> strains_;     ///< per local element, at this instant
   std::vector<Sums> sums_;          ///< per cable
   std::vector<Quaternion> drawn_;   ///< attitude, per body of the network
   std::vector<double> turned_;      ///< as ShapeSummary; of this rank's bodies
   double highest_, lowest_;         ///< [m]
-  long instants_ = 0;
+  long shown_ = 0, instants_ = 0;   ///< all, and those that were looked at
 };
 
 }   // namespace cablenet::output
