@@ -10,7 +10,7 @@ import tempfile
 import time
 from functools import partial
 
-from benchmarks import bodies, chains, instructions, networks, scaling, tows
+from benchmarks import bodies, chains, features, instructions, networks, scaling, tows
 from benchmarks.page import Page
 from benchmarks.runs import Laboratory, RunFailed
 
@@ -29,6 +29,7 @@ FULL = {
                large=(10**7, 10**4, (64, 1024, 16384)), elements=10**8),
     9: partial(bodies.bodies, masses=1000, elements=10, steps=200, cables=(50, 100, 200, 400), per_cable=50),
     10: partial(tows.tows, targets={100: 0.002, 500: 0.008, 1000: 0.016}, finest=(1000, 0.05), step=1, interval=2),
+    11: partial(features.features, few=20, many=120),
 }
 QUICK = {
     1: chains.free_fall,
@@ -42,6 +43,7 @@ QUICK = {
                large=(10**5, 100, (16, 64)), elements=10**8),
     9: partial(bodies.bodies, masses=100, elements=10, steps=200, cables=(50, 100), per_cable=50),
     10: partial(tows.tows, targets={100: 0.002}, finest=(200, 0.2), step=1, interval=2),
+    11: partial(features.features, few=20, many=40),
 }
 
 
@@ -49,15 +51,15 @@ def parse():
     parser = argparse.ArgumentParser(prog="benchmark.sh", description=__doc__)
     parser.add_argument("--quick", action="store_true", help="small versions of all, to try it out")
     parser.add_argument("--output", type=pathlib.Path, metavar="FILE", help="write the page here, too")
-    parser.add_argument("--instructions", action="store_true", help="also section 7, with callgrind")
+    parser.add_argument("--instructions", action="store_true", help="also sections 7 and 11, with callgrind")
     parser.add_argument("--scaling", action="store_true", help="also section 8: many ranks, by a model")
     parser.add_argument("--sections", metavar="N,N", help="only these, such as 1,2")
     parser.add_argument("--repetitions", type=int, help="of each timing; 5, with --quick 2")
     parser.add_argument("--limit", type=float, default=600, help="seconds that one run may take; 600")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build", help="where the programs are")
     options = parser.parse_args()
-    if options.sections and not re.fullmatch(r"([1-9]|10)(,([1-9]|10))*", options.sections):
-        parser.error("--sections: expected numbers from 1 to 10, such as 1,2")
+    if options.sections and not re.fullmatch(r"([1-9]|1[01])(,([1-9]|1[01]))*", options.sections):
+        parser.error("--sections: expected numbers from 1 to 11, such as 1,2")
     if options.repetitions is not None and options.repetitions < 1:
         parser.error("--repetitions: expected at least 1")
     options.build = options.build.resolve()
@@ -67,7 +69,7 @@ def parse():
 def chosen(options):
     if options.sections:
         return sorted({int(word) for word in options.sections.split(",")})
-    return [1, 2, 3, 4, 5, 6] + [7] * options.instructions + [8] * options.scaling + [9, 10]
+    return [1, 2, 3, 4, 5, 6] + [7] * options.instructions + [8] * options.scaling + [9, 10] + [11] * options.instructions
 
 
 def processor():

@@ -122,6 +122,10 @@ class Laboratory:
         shutil.rmtree(results, ignore_errors=True)
         return [str(self.program), "run", str(path), "-o", str(results), *map(str, options)]
 
+    def report(self):
+        """run.yaml of the last run, as a dict."""
+        return yaml.safe_load((self.folder / "results" / "run.yaml").read_text(encoding="utf-8"))
+
     def run(self, scene, *options, ranks=1, steps=None, events=False):
         """@param steps  the run ends after so many   @param events  whether to read events from -log_view"""
         log = self.folder / "events.csv"
@@ -130,9 +134,7 @@ class Laboratory:
         more += ["-log_view", f":{log}:ascii_csv"] if events else []
         launcher = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
         _, wall = self.execute([*launcher, *self.command(scene, *more)])
-        results = self.folder / "results"
-        report = yaml.safe_load((results / "run.yaml").read_text(encoding="utf-8"))
-        return Run(report, wall, read_events(log) if events else {})
+        return Run(self.report(), wall, read_events(log) if events else {})
 
     def stepping(self, scene, steps, *options, **keywords):
         """The cost of `steps` steps after the first step, as a Stepping."""
