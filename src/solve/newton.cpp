@@ -48,7 +48,8 @@ bool is_of_type(PetscObject object, const char* type) {
 
 }   // namespace
 
-Newton::Newton(system::Assembler& assembler) : assembler_(assembler), tangent_(assembler.make_tangent()) {
+Newton::Newton(system::Assembler& assembler)
+    : assembler_(assembler), tangent_(assembler.make_tangent()), probe_(assembler.make_vector()) {
   const system::Vector x = assembler.make_vector(), v = assembler.make_vector();
   assembler.fill_initial(x, v);
   scales_ = assembler.force_scales(0, x, v);
@@ -75,8 +76,7 @@ void Newton::scale_tolerance() {
   PetscReal of_norm = 0, of_step = 0;
   PetscInt iterations = 0, evaluations = 0;
   check(SNESGetTolerances(snes_, nullptr, &of_norm, &of_step, &iterations, &evaluations));
-  const double of_force = relative_force_tolerance * scales_.load;
-  check(SNESSetTolerances(snes_, of_force, of_norm, of_step, iterations, evaluations));
+  check(SNESSetTolerances(snes_, relative_force_tolerance * scales_.load, of_norm, of_step, iterations, evaluations));
 }
 
 void Newton::adopt_options() {
@@ -87,16 +87,11 @@ void Newton::adopt_options() {
   // Other line searches evaluate residuals elsewhere while they use the tangent.
   combines_ = makes_tangents_ && reuse_.computes_always() && has_basic_line_search();
   if (makes_tangents_) check(SNESSetLagJacobian(snes_, never));
+  if (!makes_tangents_ || !given_snes_options_only_watch(prefix)) probe_.turn_off();
 }
 
 bool Newton::makes_tangents(const char* prefix) const {
-  if (!is_of_type(reinterpret_cast<PetscObject>(snes_), SNESNEWTONLS)) return false;
-  const std::string beginning = std::string(prefix) + "snes_", nested = std::string(prefix) + "npc_";
-  const std::vector<std::string> given = petsc::given_options();
-  return std::all_of(given.begin(), given.end(), [&](const std::string& name) {
-    if (name.starts_with(nested)) return false;
-    return !name.starts_with(beginning) || is_harmless_snes_option(name.substr(beginning.size()));
-  });
+  return is_of_type(reinterpret_cast<PetscObject>(snes_), SNESNEWTONLS) && given_snes_options_are_harmless(prefix);
 }
 
 bool Newton::has_basic_line_search() const {
@@ -136,11 +131,17 @@ void Newton::begin_step(double t, Vec x, Vec v, bool measures) {
   largest_coordinate_ = assembler_.network().blocks.uniform() ? largest : std::max<double>(largest, 1);
 }
 
+void Newton::end_step(long iterations) {
+  probe_.end_solve(convergence_.was_in_doubt());
+  expected_iterations_ = iterations;
+}
+
 void Newton::begin_attempt(int attempt) {
   outside_element_ = outside_body_ = -1;
   if (attempt >= first_search || searches_) choose_line_search(attempt >= first_search);
   searches_ = attempt >= first_search;
   attempt_ = attempt;
+  if (attempt > 1) probe_.forget();
 }
 
 void Newton::begin_solve(const AlphaStep& step, const StepStart& start, Vec guess) {
@@ -155,6 +156,8 @@ void Newton::begin_solve(const AlphaStep& step, const StepStart& start, Vec gues
   const double share = start.own_a != nullptr ? step.share_of_mean() : 1, half_square = step.dt * step.dt / 2;
   check(VecAXPBYPCZ(guess, step.dt, share * half_square, 1, start.v, start.expected_a));
   if (start.own_a != nullptr) check(VecAXPY(guess, (1 - share) * half_square, start.own_a));
+  probe_.begin_solve(step.dt, start.x, guess);
+  convergence_.begin_solve(probe_.farther());
 }
 
 void Newton::residual(Vec x, Vec v, Vec a, Vec r) {
@@ -225,10 +228,10 @@ bool Newton::is_at_positions_rounding(double correction, double positions) const
   return is_full && correction <= smallest_correction * std::numeric_limits<double>::epsilon() * positions;
 }
 
-bool Newton::is_at_rounding(PetscInt iteration, double norm, double noise) {
+bool Newton::is_at_rounding(PetscInt iteration, double norm, double correction, double noise) {
   const bool careful = searches_ || (user_line_search_ && iteration > 0);
   const bool settled =
-      convergence_.is_at_rounding(static_cast<int>(iteration), norm, noise, careful, converges_linearly());
+      convergence_.is_at_rounding(static_cast<int>(iteration), norm, correction, noise, careful, converges_linearly());
   if (iteration > 0) reuse_.note_correction(static_cast<int>(iteration), convergence_.contraction());
   return settled;
 }
@@ -237,10 +240,10 @@ bool Newton::is_at_rounding(PetscInt iteration, double norm, double noise) {
 SNESConvergedReason Newton::test(PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm) {
   SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
   check(SNESConvergedDefault(snes_, iteration, xnorm, snorm, fnorm, &reason, nullptr));
-  if (iteration == 1) first_correction_ = snorm;
+  if (iteration == 1) first_correction_ = snorm / probe_.farther();
   const bool linear_and_solved = step_.is_start() && iteration >= 1;
   const double noise = this->noise();
-  bool settled = !step_.is_start() && is_at_rounding(iteration, fnorm, noise);
+  bool settled = !step_.is_start() && is_at_rounding(iteration, fnorm, snorm, noise);
   if (iteration > 0 && !converges_linearly()) settled = settled || is_at_positions_rounding(snorm, xnorm);
   if (reason == SNES_CONVERGED_ITERATING && (settled || linear_and_solved)) reason = SNES_CONVERGED_FNORM_ABS;
   progress_.note(static_cast<int>(iteration), fnorm, NewtonConvergence::most_of_noise * noise);
@@ -291,6 +294,7 @@ void Newton::archive(Archive& archive) {
   archive.item("newton.expected_iterations", expected_iterations_);
   archive.item("newton.largest_coordinate", largest_coordinate_);
   convergence_.archive(archive);
+  probe_.archive(archive);
 }
 
 }   // namespace cablenet::solve

@@ -73,7 +73,7 @@ bool ends(const std::vector<double>& norms, bool kept, bool is_retry = false) {
   bool verdict = false;
   for (std::size_t i = 0; i < norms.size(); ++i) {
     EXPECT_FALSE(verdict) << "before " << norms[i];
-    verdict = convergence.is_at_rounding(static_cast<int>(i), norms[i], of_rounding, is_retry, kept && i > 1);
+    verdict = convergence.is_at_rounding(static_cast<int>(i), norms[i], 0, of_rounding, is_retry, kept && i > 1);
   }
   return verdict;
 }
@@ -91,8 +91,8 @@ TEST(NewtonConvergence, EndsWhereItsErrorIsBelowRounding) {
 TEST(NewtonConvergence, AResidualBelowRoundingBoundsTheCurvature) {
   solve::NewtonConvergence convergence;
   const auto ends_after = [&](double guess, double corrected) {
-    EXPECT_FALSE(convergence.is_at_rounding(0, guess, of_rounding, false, false));
-    return convergence.is_at_rounding(1, corrected, of_rounding, false, false);
+    EXPECT_FALSE(convergence.is_at_rounding(0, guess, 0, of_rounding, false, false));
+    return convergence.is_at_rounding(1, corrected, 0, of_rounding, false, false);
   };
   EXPECT_FALSE(ends_after(1, 4e-10)) << "nothing is known yet";
   EXPECT_TRUE(ends_after(0.1, 4e-10)) << "at most 4e-12 is left";
@@ -102,19 +102,66 @@ TEST(NewtonConvergence, AResidualBelowRoundingBoundsTheCurvature) {
   EXPECT_FALSE(ends_after(0.01, 1e-14)) << "what is seen stands";
 }
 
+namespace {
+
+/// First corrections of solves one after the other.
+struct FirstCorrections {
+  solve::NewtonConvergence convergence;
+
+  /// @param farther     NewtonConvergence::begin_solve()'s; `guess` and `correction` are those of a guess not moved
+  /// @returns whether one correction is enough that brings the residual from `guess` to `corrected`
+  bool suffice(double guess, double corrected, double farther = 1, double correction = 1) {
+    convergence.begin_solve(farther);
+    EXPECT_FALSE(convergence.is_at_rounding(0, farther * guess, 0, of_rounding, false, false));
+    return convergence.is_at_rounding(1, corrected, farther * correction, of_rounding, false, false);
+  }
+};
+
+}   // namespace
+
+TEST(NewtonConvergence, AMovedGuessShowsThatNothingIsHidden) {
+  FirstCorrections first;
+  EXPECT_FALSE(first.suffice(0.1, 4e-10));
+  EXPECT_TRUE(first.convergence.was_in_doubt());
+  EXPECT_FALSE(first.suffice(0.1, 2e-9, 30)) << "the solve that shows it is ended by another correction";
+  EXPECT_TRUE(first.suffice(0.1, 4e-10)) << "2e-9 / 900 is left";
+  EXPECT_FALSE(first.convergence.was_in_doubt());
+  EXPECT_FALSE(first.suffice(0.1, 6e-10)) << "above half the rounding";
+  EXPECT_TRUE(first.suffice(0.15, 4e-10));
+  EXPECT_FALSE(first.suffice(0.3, 4e-10)) << "a worse guess leaves 9 times as much";
+  EXPECT_FALSE(first.suffice(0.1, 4e-10, 1, 3)) << "a longer correction as well";
+}
+
+TEST(NewtonConvergence, AMovedGuessShowsThatSomethingIsHidden) {
+  FirstCorrections first;
+  first.suffice(0.1, 4e-10);
+  EXPECT_FALSE(first.suffice(0.1, 9e-8, 30));
+  EXPECT_FALSE(first.suffice(0.1, 4e-10)) << "9e-8 / 900 is left, which adds up";
+  EXPECT_FALSE(first.suffice(0.05, 4e-10)) << "a guess with less of a stiff error can leave as much";
+  EXPECT_TRUE(first.convergence.was_in_doubt());
+}
+
+TEST(NewtonConvergence, ForgetsWhatAMovedGuessHasShown) {
+  FirstCorrections first;
+  first.suffice(0.1, 1e-9, 30);
+  int solves = 0;
+  while (solves < 2000 && first.suffice(0.1, 4e-10)) ++solves;
+  EXPECT_NEAR(solves, 440, 2) << "until 1e-9 / 900 times 1.005 in each is 1e-11";
+}
+
 TEST(NewtonConvergence, WhatItLearntIsSavedAndLoaded) {
   solve::NewtonConvergence learnt, loaded, knows_nothing;
-  learnt.is_at_rounding(0, 1, of_rounding, false, false);
-  learnt.is_at_rounding(1, 1e-4, of_rounding, false, false);
+  learnt.is_at_rounding(0, 1, 0, of_rounding, false, false);
+  learnt.is_at_rounding(1, 1e-4, 0, of_rounding, false, false);
   Archive saved;
   learnt.archive(saved);
   Archive archive(saved.entries());
   loaded.archive(archive);
   for (auto* convergence : {&learnt, &loaded, &knows_nothing})
-    EXPECT_FALSE(convergence->is_at_rounding(0, 1e-4, of_rounding, false, false));
-  EXPECT_TRUE(learnt.is_at_rounding(1, 4e-10, of_rounding, false, false));
-  EXPECT_TRUE(loaded.is_at_rounding(1, 4e-10, of_rounding, false, false));
-  EXPECT_FALSE(knows_nothing.is_at_rounding(1, 4e-10, of_rounding, false, false));
+    EXPECT_FALSE(convergence->is_at_rounding(0, 1e-4, 0, of_rounding, false, false));
+  EXPECT_TRUE(learnt.is_at_rounding(1, 4e-10, 0, of_rounding, false, false));
+  EXPECT_TRUE(loaded.is_at_rounding(1, 4e-10, 0, of_rounding, false, false));
+  EXPECT_FALSE(knows_nothing.is_at_rounding(1, 4e-10, 0, of_rounding, false, false));
 }
 
 TEST(NewtonConvergence, EndsWhereNothingIsGained) {

@@ -171,6 +171,10 @@ def check_newton(verification):
     for elements, before, part in ((96, 763, 0.40), (192, 1062, 0.30)):
         now = whip(verification, elements, 0.01, 0.5).counted("newton_iterations")
         verification.check(f"fall of {elements} elements at 10 ms: iterations over {before}", now / before, part)
+    run = whip(verification, 24, 1e-4, 0.1)
+    verification.check("fall of 24 elements at 0.1 ms: iterations a step", run.counted("newton_iterations") / 1000, 1.05)
+    verification.check("fall of 24 elements at 0.1 ms: balance over what moves",
+                       np.abs(run["energy.balance"]).max() / run["energy.kinetic"].max(), 1e-9)
     now = turn(verification, 1e10, 0.2, 20).counted("newton_iterations")
     verification.check("stiff pendulum at 0.2 s: iterations over 1095", now / 1095, 0.35)
     now = net(verification).counted("newton_iterations")

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cablenet/petsc/object_state.hpp"
+#include "cablenet/solve/curvature_probe.hpp"
 #include "cablenet/solve/linear_solver.hpp"
 #include "cablenet/solve/newton_convergence.hpp"
 #include "cablenet/solve/newton_progress.hpp"
@@ -48,7 +49,7 @@ public:
   /// @param measures  whether to measure the forces and the largest coordinate, on which tolerances depend
   void begin_step(double t, Vec x, Vec v, bool measures);
   /// @param iterations  of all solves of the step
-  void end_step(long iterations) { expected_iterations_ = iterations; }
+  void end_step(long iterations);
 
   /// Of the last solve: how far its first guess was off [m].  0: not at all.
   double first_correction() const { return first_correction_; }
@@ -72,7 +73,7 @@ private:
   void choose_line_search(bool searches);
   /// The 2-norm of a residual that is rounding alone.  [N]
   double noise() const { return scales_.rounding(largest_coordinate_, step_.shift_a()) / step_.alpha_f; }
-  bool is_at_rounding(PetscInt iteration, double norm, double noise);
+  bool is_at_rounding(PetscInt iteration, double norm, double correction, double noise);
   SNESConvergedReason test(PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm);
   system::TangentRequest tangent_request();
   bool predicts() const;
@@ -93,6 +94,7 @@ private:
   SNES snes_ = nullptr;
   TangentReuse reuse_;
   NewtonConvergence convergence_;
+  CurvatureProbe probe_;
   NewtonProgress progress_;
   AlphaStep step_{};
   double t_ = 0;                                  ///< of the step's start [s]
