@@ -13,7 +13,6 @@ namespace {
 constexpr int least_elements = 2;
 /// Where a cable hardly bends it still has this part of the density of where it bends most.
 constexpr double least_density = 0.5;
-constexpr double first_elements = 8;
 constexpr double least_rows = 50, rows_in_period = 12;
 
 Vector3 place_of(const scene::CableEnd& end, const scene::Scene& scene) {
@@ -132,13 +131,8 @@ scene::Scene halved(const scene::Scene& scene) {
   return result;
 }
 
-Fineness first_sizes(const scene::Scene& scene) {
-  const bool chooses_steps = !scene.is_static && scene.time.step == 0;
-  return {first_elements, {chooses_steps ? interval_of_rows(scene) : 0, {}}};
-}
-
-bool is_written(const scene::Scene& scene, double t) {
-  const double since = t - scene.time.start, interval = interval_of_rows(scene);
+bool is_written(const scene::Scene& scene, double interval, double t) {
+  const double since = t - scene.time.start;
   const auto is_multiple_of = [since](double span, double rounding) {
     return std::abs(since - std::round(since / span) * span) <= rounding;
   };

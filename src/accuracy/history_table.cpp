@@ -126,6 +126,21 @@ std::vector<double> scales(const HistoryTable& table) {
   return result;
 }
 
+std::vector<double> errors_at_first(const HistoryTable& run, const HistoryTable& finer) {
+  const std::vector<double> scale = scales(run);
+  std::vector<double> sums(scale.size(), 0);
+  std::size_t next = 0;
+  for (const auto& row : run.rows) {
+    if (row.front() > finer.rows.back().front()) break;
+    const std::vector<double> other = row_at(finer, row.front(), next);
+    for (std::size_t c = 0; c < sums.size(); ++c)
+      if (scale[c] > 0) sums[c] += std::pow((row[c] - other[c]) / scale[c], 2);
+  }
+  constexpr double whole = 4.0 / 3;
+  for (double& sum : sums) sum = whole * std::sqrt(sum / static_cast<double>(run.rows.size()));
+  return sums;
+}
+
 Estimate largest(const std::vector<double>& errors, const HistoryTable& table) {
   const auto worst = std::max_element(errors.begin(), errors.end());
   if (worst == errors.end()) return {};

@@ -31,6 +31,8 @@ constexpr int most_runs = 24;
 constexpr double most_elements = 128;
 /// A run is made again so many times, with so many times the work at most.
 constexpr double most_more_work = 5;
+/// Not again where that left more than this share of the error.
+constexpr double least_help = 0.7;
 constexpr int most_refined = 2;
 /// The tolerance of the first adaptive run, over the extent of the scene, for an error of 1.  The local error goes with
 /// the step to the power 3, and the error with its square.
@@ -57,11 +59,12 @@ void Search::Reference::follow(const Errors& shares) {
 
 Search::Search(const scene::Scene& scene, Try run, Bends bends)
     : scene_(scene),
+      interval_(interval_of_rows(scene)),
       wanted_(*scene.accuracy),
       try_(std::move(run)),
       bends_(std::move(bends)),
       mesh_(scene),
-      first_elements_(first_sizes(scene).elements) {}
+      first_elements_(first_elements) {}
 
 bool Search::may_run() const { return runs_ < most_runs; }
 
@@ -72,8 +75,7 @@ Trial Search::run(const Fineness& sizes) {
 
 /// The longest step that is not longer, and divides the interval of rows.
 double Search::rounded(double step) const {
-  const double interval = interval_of_rows(scene_);
-  return interval / std::max(1.0, std::ceil(interval / step * (1 - 1e-9)));
+  return interval_ / std::max(1.0, std::ceil(interval_ / step * (1 - 1e-9)));
 }
 
 Stepping Search::stepping(double size) const {
@@ -91,7 +93,7 @@ void Search::choose() {
 
 /// The first run that comes to its end says how a mesh is graded.
 bool Search::begin() {
-  for (double step = first_sizes(scene_).stepping.step; may_run(); step /= 2) {
+  for (double step = chooses_steps() ? interval_ : 0; may_run(); step /= 2) {
     chosen_ = {first_elements_, stepping(step)};
     const Trial first = run(chosen_);
     if (!first.is_done && !chooses_steps()) first_elements_ *= 2;
@@ -218,7 +220,11 @@ void Search::take_scales() {
              stepping(by_step_.size * by_step_.scale)};
 }
 
-Estimate Search::estimate(const Trial& run) {
+Fineness Search::finer() const {
+  return {by_mesh_.size > 0 ? 2 * chosen_.elements : chosen_.elements, stepping(by_step_.size * by_step_.scale / 2)};
+}
+
+Estimate Search::estimate(const Trial& run, const Trial& check) {
   found_ = {endless, ""};
   if (!reference_.is_done) return found_;
   run_errors_ = differences(reference_.history, run.history);
@@ -229,13 +235,21 @@ Estimate Search::estimate(const Trial& run) {
     const double unforeseen = error - most_foreseen * before;
     error = is_told ? std::max({error * now / (before - now), now / 2, unforeseen}) : std::max(error, now);
   }
+  if (check.is_done) {
+    const Errors at_first = errors_at_first(run.history, check.history);
+    for (std::size_t c = 0; c < at_first.size(); ++c) run_errors_[c] = std::max(run_errors_[c], at_first[c]);
+  }
   return found_ = accuracy::largest(run_errors_, run.history);
 }
 
-bool Search::can_refine() const { return !is_reached() && reference_.is_done && can_reach_ && refined_ < most_refined; }
+bool Search::can_refine() const {
+  const bool helps = refined_ == 0 || found_.error < least_help * before_;
+  return !is_reached() && reference_.is_done && can_reach_ && helps && refined_ < most_refined;
+}
 
 void Search::refine(Trial run) {
   ++refined_;
+  before_ = found_.error;
   Errors mesh(run_errors_.size()), step(run_errors_.size());
   for (std::size_t c = 0; c < run_errors_.size(); ++c) {
     const double of_mesh = by_mesh_.now(c), of_step = by_step_.now(c), sum = of_mesh + of_step;

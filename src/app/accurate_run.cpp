@@ -15,6 +15,9 @@
 namespace cablenet::app {
 namespace {
 
+/// Of the run's time.
+constexpr double checked_part = 0.1;
+
 std::string percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
 
 std::string describe(const accuracy::Stepping& stepping) {
@@ -40,6 +43,7 @@ public:
   AccurateRun(const scene::Scene& scene, const std::string& directory)
       : scene_(scene),
         directory_(directory),
+        interval_(accuracy::interval_of_rows(scene)),
         search_(
             scene, [this](const accuracy::Mesh& mesh, const accuracy::Fineness& sizes) { return look(mesh, sizes); },
             [this] { return bends_; }) {}
@@ -49,7 +53,8 @@ public:
     search_.choose();
     for (;;) {
       const scene::Scene made = accuracy::made(scene_, search_.mesh(), search_.chosen());
-      const int status = simulate(made, directory_, [&](accuracy::Trial run) { return judge(made, std::move(run)); });
+      const int status =
+          simulate(made, directory_, {interval_, [&](accuracy::Trial run) { return judge(made, std::move(run)); }});
       if (status != 0 || !last_.is_done || !search_.can_refine()) return status;
       search_.refine(std::move(last_));
       last_ = {};
@@ -60,13 +65,21 @@ public:
 private:
   accuracy::Trial look(const accuracy::Mesh& mesh, const accuracy::Fineness& sizes) {
     scene::Scene made = accuracy::made(scene_, mesh, sizes);
-    made.output.interval = accuracy::interval_of_rows(scene_);
+    made.output.interval = interval_;
     CoarseRun found = run_coarsely(made);
     bends_ = std::move(found.bends);
     std::string text = mesh.is_given() ? "" : fmt::format("{} elements", elements_of(mesh, sizes));
     if (search_.chooses_steps()) text += (text.empty() ? "" : ", ") + describe(sizes.stepping);
     tell(fmt::format("  looked at {}{}", text, found.trial.is_done ? "" : ": it did not come to its end"));
     return std::move(found.trial);
+  }
+
+  /// The first tenth of the run, with half the sizes.
+  accuracy::Trial check() const {
+    scene::Scene made = accuracy::made(scene_, search_.mesh(), search_.finer());
+    made.output.interval = interval_;
+    made.time.end = made.time.start + checked_part * (made.time.end - made.time.start);
+    return run_coarsely(made).trial;
   }
 
   static int elements_of(const accuracy::Mesh& mesh, const accuracy::Fineness& sizes) {
@@ -76,7 +89,7 @@ private:
   }
 
   Report::Accuracy judge(const scene::Scene& made, accuracy::Trial run) {
-    const accuracy::Estimate found = search_.estimate(run);
+    const accuracy::Estimate found = search_.estimate(run, check());
     last_ = std::move(run);
     Report::Accuracy report{*scene_.accuracy, found.error, found.quantity, {}, "", ""};
     for (const auto& [cable, number] : search_.mesh().counts(search_.chosen().elements))
@@ -102,6 +115,7 @@ private:
 
   const scene::Scene& scene_;
   const std::string& directory_;
+  double interval_;   ///< of rows [s]
   accuracy::Search search_;
   std::vector<std::vector<double>> bends_;
   accuracy::Trial last_;
@@ -114,7 +128,7 @@ int simulate_held_against_half(const scene::Scene& scene, const std::string& dir
                   "what they err by",
                   scene.file, percent(*scene.accuracy)));
   const accuracy::Trial half = run_coarsely(accuracy::halved(scene)).trial;
-  return simulate(scene, directory, [&](const accuracy::Trial& run) {
+  const auto judge = [&](const accuracy::Trial& run) {
     accuracy::Estimate found{std::numeric_limits<double>::infinity(), ""};
     if (half.is_done) found = accuracy::largest(accuracy::differences(half.history, run.history), run.history);
     found.error /= 3;
@@ -126,7 +140,8 @@ int simulate_held_against_half(const scene::Scene& scene, const std::string& dir
           "chosen for it",
           percent(*scene.accuracy), words(found));
     return report;
-  });
+  };
+  return simulate(scene, directory, {accuracy::interval_of_rows(scene), judge});
 }
 
 }   // namespace
@@ -138,7 +153,8 @@ int simulate_accurately(const scene::Scene& scene, const std::string& directory)
 }
 
 scene::Scene first_choice(const scene::Scene& scene) {
-  return accuracy::made(scene, accuracy::Mesh(scene), accuracy::first_sizes(scene));
+  return accuracy::made(scene, accuracy::Mesh(scene),
+                        {accuracy::first_elements, {accuracy::interval_of_rows(scene), {}}});
 }
 
 }   // namespace cablenet::app

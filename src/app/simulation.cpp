@@ -80,7 +80,7 @@ private:
   }
 
   void set_up_dynamics() {
-    solve::Dynamics::Settings settings{judge_ ? accuracy::interval_of_rows(scene_) : scene_.output.interval};
+    solve::Dynamics::Settings settings{judge_.judge ? judge_.interval : scene_.output.interval};
     settings.keeps_accounts = scene_.output.energy;
     settings.takes_notes = true;
     dynamics_.emplace(*assembler_, time_, settings);
@@ -90,7 +90,7 @@ private:
   void open_output() {
     frames_.emplace(network_, partition_, *assembler_);
     probes_.emplace(scene_, network_, *assembler_);
-    if (judge_) record_.emplace(scene_, network_, *assembler_);
+    if (judge_.judge) record_.emplace(scene_, network_, *assembler_);
     shapes_.emplace(network_, scene_.cables.size(), assembler_->network(), PETSC_COMM_WORLD);
     output::Series::Options options;
     options.scene_hash = scene_hash(scene_);
@@ -125,7 +125,8 @@ private:
     finish_output();
     report_.scheme = "static";
     report_.linear_solver = equilibrium_->linear_solver();
-    if (found) tell_economy(report_, economy_of(scene_, network_, shapes_->summary(), std::nullopt, 0));
+    if (found && !judge_.judge)
+      tell_economy(report_, economy_of(scene_, network_, shapes_->summary(), std::nullopt, 0));
     return conclude(found ? solve::Verdict::finished : solve::Verdict::failed, equilibrium_->advice());
   }
 
@@ -161,7 +162,7 @@ private:
     for (const std::string& text : tension_notes(scene_, network_, *assembler_, total_share)) add_note(report_, text);
     if (steps)
       for (const std::string& text : step_notes(*steps, report_.counts, lost)) add_note(report_, text);
-    if (verdict == solve::Verdict::finished)
+    if (verdict == solve::Verdict::finished && !judge_.judge)
       tell_economy(report_, economy_of(scene_, network_, shapes_->summary(), steps, lost));
     if (dynamics_->has_gained_energy())
       report_.message = fmt::format("at t = {:.9g} s {}", report_.reached, describe_gain(*report_.energy));
@@ -177,7 +178,7 @@ private:
           assembler_->observe(instant.t, instant.x, instant.v, instant.a, scene_.is_static);
       assembler_->look_at_energy();
       if (record_) record_->look(state);
-      if (record_ && !accuracy::is_written(scene_, instant.t)) return;
+      if (record_ && !accuracy::is_written(scene_, judge_.interval, instant.t)) return;
       shapes_->look(state);
       const std::vector<double>& row = probes_->row(state);
       if (history_) history_->write(row);
@@ -209,7 +210,7 @@ private:
   int conclude(solve::Verdict verdict, const std::string& advice) {
     report_.status = "finished";
     if (record_ && verdict != solve::Verdict::failed) {
-      report_.accuracy = judge_({true, record_->table()});
+      report_.accuracy = judge_.judge({true, record_->table()});
       add_note(report_, report_.accuracy->note);
     }
     if (verdict == solve::Verdict::stopped) report_.status = "stopped";

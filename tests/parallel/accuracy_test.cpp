@@ -211,17 +211,34 @@ TEST(History, EquilibriaAreScaledByExtentAndSize) {
   EXPECT_NEAR(found[3], 5.0 / 50, 1e-12);
 }
 
+TEST(Search, AnErrorInTheFirstTenthCounts) {
+  const scene::Scene scene = open_scene(0.01);
+  Model model{20, 2, 20};
+  Search search = searched(scene, model);
+  const Trial run = model.run(search.mesh(), search.chosen());
+  const Fineness finer = search.finer();
+  EXPECT_DOUBLE_EQ(finer.elements, 2 * search.chosen().elements);
+  EXPECT_NEAR(finer.stepping.step, search.chosen().stepping.step / 2, 0.3 * finer.stepping.step);
+  Trial check = model.run(search.mesh(), finer);
+  check.history.rows.resize(11);
+  search.estimate(run, check);
+  EXPECT_TRUE(search.is_reached());
+  check.history.rows[5][1] += 2;   // the range in one row of 101
+  EXPECT_NEAR(search.estimate(run, check).error, 4.0 / 3 / std::sqrt(101.0), 0.02);
+  EXPECT_FALSE(search.is_reached());
+}
+
 TEST(Rows, AreAtLeastFiftyAndTwelveInAPeriod) {
   scene::Scene scene = open_scene(0.01);
   EXPECT_DOUBLE_EQ(interval_of_rows(scene), 0.1);
   scene.output.interval = 10;
   EXPECT_DOUBLE_EQ(interval_of_rows(scene), 0.2);
-  EXPECT_TRUE(is_written(scene, 0));
-  EXPECT_FALSE(is_written(scene, 0.2));
-  EXPECT_TRUE(is_written(scene, 10));
-  EXPECT_TRUE(is_written(scene, 0.3));   // where a run could not go on
+  EXPECT_TRUE(is_written(scene, 0.2, 0));
+  EXPECT_FALSE(is_written(scene, 0.2, 0.2));
+  EXPECT_TRUE(is_written(scene, 0.2, 10));
+  EXPECT_TRUE(is_written(scene, 0.2, 0.3));   // where a run could not go on
   scene.points[0].motion = scene::Motion::harmonic({0, 0, 0}, {1, 0, 0}, 1.2, 0);
   EXPECT_NEAR(interval_of_rows(scene), 0.1, 2e-3);
   scene.output.interval = 0;
-  EXPECT_TRUE(is_written(scene, 0.123));
+  EXPECT_TRUE(is_written(scene, 0.2, 0.123));
 }

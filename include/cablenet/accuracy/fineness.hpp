@@ -62,11 +62,12 @@ bool is_open(const scene::Scene& scene);
 /// The scene with half the elements of each cable and twice the step.
 scene::Scene halved(const scene::Scene& scene);
 
-/// Those of the first coarse run.
-Fineness first_sizes(const scene::Scene& scene);
+/// Those of a cable in the first coarse run.
+constexpr double first_elements = 8;
 
 /// Whether rows at this time are not only for comparing: the scene asks for them, or a run ends there.
-bool is_written(const scene::Scene& scene, double t);
+/// @param interval  of rows for comparing [s]
+bool is_written(const scene::Scene& scene, double interval, double t);
 
 /// The scene with these sizes, where it leaves them to be chosen.
 scene::Scene made(const scene::Scene& scene, const Mesh& mesh, const Fineness& fineness);

@@ -24,6 +24,11 @@ std::vector<double> scales(const HistoryTable& table);
 /// @pre both have the same columns
 std::vector<double> differences(const HistoryTable& coarse, const HistoryTable& fine);
 
+/// What a run errs by in its first part at least, per column: the root mean square over the whole run, as if it erred
+/// nowhere else.  The run that it is held against has half its sizes, so that it errs by a quarter.
+/// @param finer  a run that ends earlier
+std::vector<double> errors_at_first(const HistoryTable& run, const HistoryTable& finer);
+
 struct Estimate {
   double error = 0;       ///< infinity where there is nothing to hold a run against
   std::string quantity;   ///< the worst one

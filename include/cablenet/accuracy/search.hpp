@@ -11,8 +11,8 @@
 /// Coarse runs show what finer ones need.  With few elements the step is halved until its error is four times the
 /// wanted one.  Adaptive steps are tried beside them.  With such steps the elements are doubled until their error is
 /// three times the wanted one.  Both errors go with the square of the size, so that the cheapest sizes for the accuracy
-/// follow. The run with these is held against the finest one before.  It is made again, finer, where that shows too
-/// large an error.
+/// follow.  The run with these is held against the finest one before, and its first tenth against one with half the
+/// sizes, as there vibrations last that a start excites.  It is made again, finer, where that shows too large an error.
 ///
 /// An error is the root mean square over time, by the range of the quantity (history_table.hpp).
 /// Tests: tests/parallel/accuracy_test.cpp, tests/cases/accuracy.py
@@ -33,8 +33,11 @@ public:
   const Mesh& mesh() const { return mesh_; }
   const Fineness& chosen() const { return chosen_; }
   bool chooses_steps() const { return !scene_.is_static && scene_.time.step == 0; }
+  /// Half the chosen sizes.
+  Fineness finer() const;
   /// What a run with the chosen sizes errs by, as far as they were chosen.
-  Estimate estimate(const Trial& run);
+  /// @param check  the first part of a run with half the sizes, where there is one
+  Estimate estimate(const Trial& run, const Trial& check = {});
   /// An estimate is itself good to a factor of 1.5.
   bool is_reached() const { return found_.error <= 1.5 * wanted_; }
   /// Whether a finer run may help where the accuracy is not reached.
@@ -73,6 +76,7 @@ private:
   double together(double mesh_scale, double step_scale) const;
 
   const scene::Scene& scene_;
+  double interval_;   ///< of rows [s]
   double wanted_;
   Try try_;
   Bends bends_;
@@ -91,6 +95,7 @@ private:
   Fineness chosen_;
   Errors run_errors_;   ///< of the run with the chosen sizes
   Estimate found_;
+  double before_ = 0;   ///< the error of the run before the last one
 };
 
 }   // namespace cablenet::accuracy

@@ -8,8 +8,11 @@
 
 namespace cablenet::app {
 
-/// Says how accurate a run is.  Collective.
-using Judge = std::function<Report::Accuracy(accuracy::Trial)>;
+/// Says how accurate a run is.
+struct Judge {
+  double interval = 0;                                           ///< of the rows that it sees [s]
+  std::function<Report::Accuracy(accuracy::Trial)> judge = {};   ///< collective
+};
 
 /// Discretises, solves and writes a scene.  Collective.
 /// @param directory for the results
