@@ -13,6 +13,8 @@ namespace {
 constexpr int least_elements = 2;
 /// Where a cable hardly bends it still has this part of the density of where it bends most.
 constexpr double least_density = 0.5;
+/// A cable that hardly bends has this part of the density of the one that bends most.
+constexpr double least_share = 0.01;
 constexpr double least_rows = 50, rows_in_period = 12;
 
 Vector3 place_of(const scene::CableEnd& end, const scene::Scene& scene) {
@@ -61,21 +63,21 @@ Mesh::Mesh(const scene::Scene& scene) {
   for (Part& part : chosen_) part.weight = part.length > 0 ? std::sqrt(part.length / longest) : 1;
 }
 
-void Mesh::grade(const std::vector<std::vector<double>>& bends) {
+void Mesh::grade(const std::vector<Bending>& bends) {
   double most = 0;
-  for (Part& part : chosen_) {
-    part.density.clear();
-    for (const double bend : bends[part.cable]) part.density.push_back(std::pow(bend, 2.0 / 3.0));
-    for (const double value : part.density) most = std::max(most, value);
-  }
+  for (const Part& part : chosen_)
+    for (const double curvature : bends[part.cable].curvature) most = std::max(most, std::pow(curvature, 2.0 / 3));
   if (most == 0) return;
   double heaviest = 0;
   for (Part& part : chosen_) {
-    part.weight = 0;
+    const Bending& bending = bends[part.cable];
+    part.density.clear();
+    for (const double curvature : bending.curvature) part.density.push_back(std::pow(curvature, 2.0 / 3));
     const double floor = least_density * *std::max_element(part.density.begin(), part.density.end());
+    part.weight = 0;
     for (double& value : part.density) {
-      value = std::max({value, floor, 0.01 * most});
-      part.weight += value * part.length / static_cast<double>(part.density.size());
+      value = std::max({value, floor, least_share * most});
+      part.weight += value * bending.length / static_cast<double>(part.density.size());
     }
     heaviest = std::max(heaviest, part.weight);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -143,7 +144,7 @@ std::vector<double> errors_at_first(const HistoryTable& run, const HistoryTable&
 
 Estimate largest(const std::vector<double>& errors, const HistoryTable& table) {
   const auto worst = std::max_element(errors.begin(), errors.end());
-  if (worst == errors.end()) return {};
+  if (worst == errors.end() || *worst == 0) return {std::numeric_limits<double>::infinity(), ""};
   return {*worst, table.columns[static_cast<std::size_t>(worst - errors.begin())]};
 }
 

@@ -29,6 +29,8 @@ constexpr double most_foreseen = 1.5;
 /// So many coarse runs are made at most, and so many elements a cable has in them.
 constexpr int most_runs = 24;
 constexpr double most_elements = 128;
+/// So many runs may not come to their end before one does, or find no equilibrium to start from.
+constexpr int most_failed = 8, most_without_start = 3;
 /// A run is made again so many times, with so many times the work at most.
 constexpr double most_more_work = 5;
 /// Not again where that left more than this share of the error.
@@ -91,16 +93,25 @@ void Search::choose() {
   settle();
 }
 
-/// The first run that comes to its end says how a mesh is graded.
+/// The first run that comes to its end says how a mesh is graded.  Shorter steps help where a run does not, and more
+/// elements where there is no equilibrium.
 bool Search::begin() {
-  for (double step = chooses_steps() ? interval_ : 0; may_run(); step /= 2) {
+  double step = chooses_steps() ? interval_ : 0;
+  for (int failed = 0, without_start = 0; failed < most_failed && without_start < most_without_start; ++failed) {
     chosen_ = {first_elements_, stepping(step)};
     const Trial first = run(chosen_);
-    if (!first.is_done && !chooses_steps()) first_elements_ *= 2;
-    if (!first.is_done) continue;
-    if (!mesh_.is_given()) mesh_.grade(bends_());
-    if (chooses_steps()) climb_steps(step);
-    return true;
+    if (first.is_done) {
+      if (!mesh_.is_given()) mesh_.grade(bends_());
+      if (chooses_steps()) climb_steps(step);
+      return true;
+    }
+    without_start += first.has_start ? 0 : 1;
+    if (chooses_steps() && first.has_start)
+      step /= 2;
+    else if (!mesh_.is_given())
+      first_elements_ *= 2;
+    else
+      return false;
   }
   return false;
 }

@@ -34,7 +34,7 @@ void refuse_step_options(const scene::Scene& scene) {
 }
 
 std::string words(const accuracy::Estimate& found) {
-  if (!std::isfinite(found.error)) return "nothing is known of the error";
+  if (!std::isfinite(found.error)) return "nothing is known of the error, as no quantity of the history shows any";
   return fmt::format("estimated {} of the range of {}", percent(found.error), found.quantity);
 }
 
@@ -107,7 +107,7 @@ private:
   /// What the estimate is of, where that is not all.
   std::string scope() const {
     std::string text;
-    if (search_.mesh().is_given()) text = ", by steps alone, as elements are given";
+    if (search_.mesh().is_given() && !scene_.cables.empty()) text = ", by steps alone, as elements are given";
     if (!scene_.is_static && !search_.chooses_steps()) text = ", by elements alone, as time.step is given";
     if (!scene_.nets.empty()) text += "; what nets err by is not in it";
     return text;
@@ -117,7 +117,7 @@ private:
   const std::string& directory_;
   double interval_;   ///< of rows [s]
   accuracy::Search search_;
-  std::vector<std::vector<double>> bends_;
+  std::vector<accuracy::Bending> bends_;
   accuracy::Trial last_;
 };
 
@@ -146,7 +146,10 @@ int simulate_held_against_half(const scene::Scene& scene, const std::string& dir
 
 }   // namespace
 
-int simulate_accurately(const scene::Scene& scene, const std::string& directory) {
+int simulate_accurately(const scene::Scene& given, const std::string& directory) {
+  scene::Scene scene = given;
+  // Nets alone have nothing else that a history could tell.
+  if (scene.points.empty() && scene.bodies.empty() && scene.cables.empty()) scene.output.energy = true;
   if (!accuracy::is_open(scene)) return simulate_held_against_half(scene, directory);
   refuse_step_options(scene);
   return AccurateRun(scene, directory).run();

@@ -55,8 +55,8 @@ accuracy::HistoryTable HistoryRecord::table() const {
   return table;
 }
 
-std::vector<std::vector<double>> HistoryRecord::bends() const {
-  std::vector<std::vector<double>> all;
+std::vector<accuracy::Bending> HistoryRecord::bends() const {
+  std::vector<accuracy::Bending> all;
   const double looks = static_cast<double>(std::max<std::size_t>(rows_.size(), 1));
   for (const network::Span& span : network_.spans) {
     // Piecewise linear between nodes, the ends as their neighbours.
@@ -80,7 +80,7 @@ std::vector<std::vector<double>> HistoryRecord::bends() const {
       const double share = (s - arcs[next - 1]) / (arcs[next] - arcs[next - 1]);
       bends[p] = values[next - 1] + share * (values[next] - values[next - 1]);
     }
-    all.push_back(std::move(bends));
+    all.push_back({arc, std::move(bends)});
   }
   return all;
 }

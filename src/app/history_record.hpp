@@ -1,4 +1,5 @@
 #pragma once
+#include "cablenet/accuracy/fineness.hpp"
 #include "cablenet/accuracy/history_table.hpp"
 #include "cablenet/output/probes.hpp"
 
@@ -15,7 +16,7 @@ public:
   /// On all ranks alike.
   accuracy::HistoryTable table() const;
   /// How much each cable bends, as accuracy::Mesh::grade takes it.
-  std::vector<std::vector<double>> bends() const;
+  std::vector<accuracy::Bending> bends() const;
 
 private:
   const network::Network& network_;

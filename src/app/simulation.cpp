@@ -210,7 +210,7 @@ private:
   int conclude(solve::Verdict verdict, const std::string& advice) {
     report_.status = "finished";
     if (record_ && verdict != solve::Verdict::failed) {
-      report_.accuracy = judge_.judge({true, record_->table()});
+      report_.accuracy = judge_.judge({true, true, record_->table()});
       add_note(report_, report_.accuracy->note);
     }
     if (verdict == solve::Verdict::stopped) report_.status = "stopped";

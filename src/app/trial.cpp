@@ -29,7 +29,8 @@ public:
 
   CoarseRun run() {
     CoarseRun result;
-    if (scene_.starts_static && !find_equilibrium()) return result;
+    result.trial.has_start = !scene_.starts_static || find_equilibrium();
+    if (!result.trial.has_start) return result;
     record_.emplace(scene_, network_, *assembler_);
     if (scene_.is_static) look_at_start();
     if (!scene_.is_static && !go(result.trial)) return result;

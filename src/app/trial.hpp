@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "cablenet/accuracy/fineness.hpp"
 #include "cablenet/accuracy/ladder.hpp"
 #include "cablenet/scene/scene.hpp"
 
@@ -8,7 +9,7 @@ namespace cablenet::app {
 
 struct CoarseRun {
   accuracy::Trial trial;
-  std::vector<std::vector<double>> bends;   ///< as accuracy::Mesh::grade takes them
+  std::vector<accuracy::Bending> bends;   ///< as accuracy::Mesh::grade takes them
 };
 
 /// Runs a scene, keeps its history, writes nothing and says nothing.  Collective.

@@ -18,6 +18,12 @@ constexpr double same_step = 1e-6;
 
 }   // namespace
 
+bool suits_probes(const system::Assembler& assembler) {
+  int links = assembler.network().own_links;
+  MPI_Allreduce(MPI_IN_PLACE, &links, 1, MPI_INT, MPI_SUM, assembler.communicator());
+  return links == 0;
+}
+
 void CurvatureProbe::begin_solve(double dt, Vec x0, Vec guess) {
   is_probing_ = std::abs(dt - dt_) <= same_step * dt_;
   if (is_probing_) {

@@ -87,7 +87,7 @@ void Newton::adopt_options() {
   // Other line searches evaluate residuals elsewhere while they use the tangent.
   combines_ = makes_tangents_ && reuse_.computes_always() && has_basic_line_search();
   if (makes_tangents_) check(SNESSetLagJacobian(snes_, never));
-  if (!makes_tangents_ || !given_snes_options_only_watch(prefix)) probe_.turn_off();
+  if (!makes_tangents_ || !suits_probes(assembler_) || !given_snes_options_only_watch(prefix)) probe_.turn_off();
 }
 
 bool Newton::makes_tangents(const char* prefix) const {

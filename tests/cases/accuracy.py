@@ -145,6 +145,23 @@ def main():
     expect(estimated >= 0.2 * off, f"a sudden start: estimated {estimated}, really {off:.5f}")
     expect((estimated > 0.015) == ("is not reached" in done.stderr), f"a sudden start: {estimated}: {done.stderr}")
 
+    # Nets have their own meshes, and a cable on one no length that is known before it is laid.
+    net = {"type": "rope", "corners": [[0, 0, 0], [4, 0, 0], [4, 0, -3], [0, 0, -3]], "meshes": [4, 3], "fixed": ["top"]}
+    scene = {**FALL, "nets": {"net": net}, "accuracy": 0.02, "time": {"end": 0.5}}
+    scene["cables"] = {"line": {"type": "rope", "from": {"net": "net", "node": [2, 3]}, "to": "end"}}
+    scene["points"] = {"end": {"position": [2, 1, -4], "mass": 1}}
+    done = bench("run", write(bench, "net.yaml", scene), "-o", "net")
+    expect(done.returncode == 0 and "what nets err by is not in it" in done.stdout, f"net: {done.stdout} {done.stderr}")
+    expect(told(bench, "net")["elements"]["line"] >= 4, f"net: {told(bench, 'net')}")
+    del scene["cables"], scene["points"], scene["output"]
+    done = bench("run", write(bench, "alone.yaml", scene), "-o", "alone")
+    expect(done.returncode == 0 and "energy" in told(bench, "alone")["worst_quantity"], f"a net alone: {done.stdout} {done.stderr}")
+    drifting = {**FALL, "initial": "static", "accuracy": 0.01, "environment": {"gravity": 0},
+                "points": {"pin": {"position": [0, 0, 0], "mass": 1, "force": [1, 0, 0]}, "end": {"position": [2, 0, 0], "mass": 1}}}
+    done = bench("run", write(bench, "drifting.yaml", drifting), "-o", "drifting")
+    expect(done.returncode == 3 and "no equilibrium" in done.stderr, f"no equilibrium: {done.returncode} {done.stderr}")
+    expect(done.stdout.count("looked at") <= 8, f"no equilibrium: {done.stdout}")
+
     # What is given is kept, and what it errs by is said.
     coarse = finer(FALL, {"elements": {"line": 4}, "steps": "steps of 0.04 s"}, 1)
     done = bench("run", write(bench, "coarse.yaml", {**coarse, "accuracy": 0.001}), "-o", "coarse")

@@ -40,7 +40,7 @@ struct Model {
     asked.push_back(sizes);
     const double elements = grid.had(sizes.elements);
     if (elements < least_elements) return {};
-    Trial trial{true, {{"time", "end.x"}, {}}, 0};
+    Trial trial{true, true, {{"time", "end.x"}, {}}, 0};
     const double off = error(elements, sizes.stepping), phase = 1e3 * elements + 1e5 * sizes.stepping.step;
     for (int i = 0; i <= 100; ++i) {
       const double t = 0.1 * i, true_one = std::sin(t);   // its range is 2, and a root mean square is one over root 2
@@ -54,7 +54,7 @@ struct Model {
   }
 };
 
-const Bends no_bends = [] { return std::vector<std::vector<double>>(1, std::vector<double>(32, 0.01)); };
+const Bends no_bends = [] { return std::vector<Bending>{{100, std::vector<double>(32, 0.01)}}; };
 
 Search searched(const scene::Scene& scene, Model& model) {
   Search search(
@@ -151,9 +151,24 @@ TEST(Search, KnowsNothingWhereNoRunComesToItsEnd) {
   Model model{20, 2, 20};
   model.least_elements = 1e9;
   Search search = searched(scene, model);
-  EXPECT_TRUE(std::isinf(search.estimate({true, {{"time"}, {{0}}}}).error));
+  EXPECT_TRUE(std::isinf(search.estimate({true, true, {{"time"}, {{0}}}}).error));
   EXPECT_FALSE(search.is_reached());
   EXPECT_FALSE(search.can_refine());
+}
+
+TEST(Search, TakesMoreElementsWhereThereIsNoEquilibrium) {
+  const scene::Scene scene = open_scene(0.01);
+  Model model{20, 2, 20};
+  const auto run = [&](const Mesh& mesh, const Fineness& sizes) {
+    Trial trial = model.run(mesh, sizes);
+    if (sizes.elements < 20) trial = {false, false};
+    return trial;
+  };
+  Search search(scene, run, no_bends);
+  search.choose();
+  EXPECT_DOUBLE_EQ(model.asked[1].elements, 16);
+  EXPECT_DOUBLE_EQ(model.asked[1].stepping.step, 0.1);
+  EXPECT_LE(model.error(search.mesh().had(search.chosen().elements), search.chosen().stepping), 0.011);
 }
 
 TEST(Ladder, SaysWhatItsFinestRunErrsBy) {
@@ -176,7 +191,7 @@ TEST(Mesh, SharesElementsOutByBends) {
   EXPECT_EQ(mesh.counts(10), (std::vector<std::pair<std::size_t, int>>{{0, 10}, {1, 10}}));
   std::vector<double> bent(32, 0.08), straight(32, 0.01);
   bent[0] = 0.64;
-  mesh.grade({bent, straight});
+  mesh.grade({{100, bent}, {100, straight}});
   const auto counts = mesh.counts(40);
   EXPECT_EQ(counts[0].second, 40);
   EXPECT_LT(counts[1].second, 20);

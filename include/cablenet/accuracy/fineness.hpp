@@ -19,6 +19,12 @@ struct Fineness {
   Stepping stepping = {};
 };
 
+/// How a cable bends in the course of a run.
+struct Bending {
+  double length;                   ///< unstretched [m]
+  std::vector<double> curvature;   ///< in root mean squares over time, in equal parts of the cable [1/m]
+};
+
 /// How elements are shared out among the cables that have none in the scene, and along them.
 class Mesh {
 public:
@@ -27,8 +33,8 @@ public:
 
   /// By the bends of a run.  Chords of the length h of a line that bends by kappa err by (kappa h)^2/24 of its length.
   /// The sum of that is least for a given number of elements where their density goes with kappa^(2/3).
-  /// @param bends  kappa, in root mean squares over time, in equal parts of each of the scene's cables [1/m]
-  void grade(const std::vector<std::vector<double>>& bends);
+  /// @param bends  of each of the scene's cables
+  void grade(const std::vector<Bending>& bends);
 
   /// The length of the longest cable, or 1.  [m]
   double extent() const { return extent_; }

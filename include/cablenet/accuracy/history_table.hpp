@@ -34,7 +34,7 @@ struct Estimate {
   std::string quantity;   ///< the worst one
 };
 
-/// The largest error per column, and whose it is.
+/// The largest error per column, and whose it is.  Where no column shows any, nothing is known.
 Estimate largest(const std::vector<double>& errors, const HistoryTable& table);
 
 }   // namespace cablenet::accuracy

@@ -8,6 +8,7 @@ namespace cablenet::accuracy {
 /// What came of a run.
 struct Trial {
   bool is_done = false;
+  bool has_start = true;   ///< An equilibrium to start from was found, or none was wanted.
   HistoryTable history = {};
   double work = 0;   ///< iterations of Newton's method times unknowns
 };

@@ -21,7 +21,7 @@ namespace cablenet::accuracy {
 /// Makes a run.
 using Try = std::function<Trial(const Mesh&, const Fineness&)>;
 /// The bends of the run that was made last, as Mesh::grade takes them.
-using Bends = std::function<std::vector<std::vector<double>>()>;
+using Bends = std::function<std::vector<Bending>()>;
 
 class Search {
 public:

@@ -41,4 +41,8 @@ private:
   int patience_ = 2;   ///< so many of them before a guess is moved
 };
 
+/// Whether a guess may be moved.  It may be too far for a stiff link between a cable and a body, whose rounding also
+/// hides what the others leave.  Collective.
+bool suits_probes(const system::Assembler& assembler);
+
 }   // namespace cablenet::solve
