@@ -31,11 +31,10 @@ constexpr int most_runs = 24;
 constexpr double most_elements = 128;
 /// So many runs may not come to their end before one does, or find no equilibrium to start from.
 constexpr int most_failed = 8, most_without_start = 3;
-/// A run is made again so many times, with so many times the work at most.
-constexpr double most_more_work = 5;
-/// Not again where that left more than this share of the error.
-constexpr double least_help = 0.7;
+/// A run is made again so many times, with so many times the work at most, and not again where that left more than this
+/// share of the error.
 constexpr int most_refined = 2;
+constexpr double most_more_work = 5, least_help = 0.7;
 /// The tolerance of the first adaptive run, over the extent of the scene, for an error of 1.  The local error goes with
 /// the step to the power 3, and the error with its square.
 constexpr double first_tolerance = 3;
