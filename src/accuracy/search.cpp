@@ -29,7 +29,7 @@ constexpr double most_foreseen = 1.5;
 /// So many coarse runs are made at most, and so many elements a cable has in them.
 constexpr int most_runs = 24;
 constexpr double most_elements = 128;
-/// So many runs may not come to their end before one does, or find no equilibrium to start from.
+/// The search gives up after so many runs that fail, or after so many that find no equilibrium to start from.
 constexpr int most_failed = 8, most_without_start = 3;
 /// A run is made again so many times, with so many times the work at most, and not again where that left more than this
 /// share of the error.

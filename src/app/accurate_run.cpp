@@ -15,7 +15,7 @@
 namespace cablenet::app {
 namespace {
 
-/// Of the run's time.
+/// The part of the run's time that is compared with a run of half the sizes.
 constexpr double checked_part = 0.1;
 
 std::string percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
@@ -25,12 +25,13 @@ std::string describe(const accuracy::Stepping& stepping) {
   return fmt::format("steps of {:.6g} s", stepping.step);
 }
 
-/// Options would keep the steps of all runs from being what is tried.
+/// These options would give all runs the same steps, so that they could not be compared.
 void refuse_step_options(const scene::Scene& scene) {
-  if (scene.is_static || scene.time.step > 0) return;
+  if (scene.is_static) return;
   for (const char* name : {"-ts_dt", "-ts_adapt_type", "-ts_max_steps"})
     if (petsc::has_option(name, nullptr))
-      throw InputError(fmt::format("{}: is not allowed where `accuracy` chooses the steps; give time.step", name));
+      throw InputError(fmt::format(
+          "{}: is not allowed with `accuracy`, which compares runs of other steps; give time.step instead", name));
 }
 
 std::string words(const accuracy::Estimate& found) {
@@ -150,8 +151,8 @@ int simulate_accurately(const scene::Scene& given, const std::string& directory)
   scene::Scene scene = given;
   // Nets alone have nothing else that a history could tell.
   if (scene.points.empty() && scene.bodies.empty() && scene.cables.empty()) scene.output.energy = true;
-  if (!accuracy::is_open(scene)) return simulate_held_against_half(scene, directory);
   refuse_step_options(scene);
+  if (!accuracy::is_open(scene)) return simulate_held_against_half(scene, directory);
   return AccurateRun(scene, directory).run();
 }
 

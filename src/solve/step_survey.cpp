@@ -30,8 +30,8 @@ double StepFindings::total_share() const {
   return adds_up() && way > 0 ? total / way * std::min(1.0, counted_ways / ways()) : 0;
 }
 
-/// Energy goes with the square of the speed.  So a loss of the part q leaves a speed that is q/2 too small in the end,
-/// and q/4 too small in the mean over the run.
+/// Kinetic energy is proportional to the speed squared.  If a small part q of it is lost, the speed is q/2 too small at
+/// the end, and q/4 too small in the mean over the run.
 double StepFindings::lag(double lost) const {
   const double counted = std::min(ways(), counted_ways);
   return adds_up() && way > 0 ? lost / 4 * counted * counted / ways() : 0;

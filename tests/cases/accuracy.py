@@ -135,7 +135,8 @@ def main():
     refused(bench, FALL, ["time.step: is missing", "accuracy"])
     refused(bench, {**FALL, "time": {"end": 1, "step": 0.01}}, ["elements: is missing", "accuracy"])
     refused(bench, {**FALL, "accuracy": 2}, ["accuracy: 2", "0.0001..0.1"])
-    refused(bench, {**FALL, "accuracy": 0.01}, ["-ts_dt", "time.step"], "-ts_dt", "0.01")
+    for scene in (FALL, {**FALL, "time": {"end": 1, "step": 0.01}}):
+        refused(bench, {**scene, "accuracy": 0.01}, ["-ts_dt", "time.step"], "-ts_dt", "0.02")
 
     done = bench("run", write(bench, "sudden.yaml", {**SUDDEN, "accuracy": 0.01}), "-o", "sudden")
     found = told(bench, "sudden")

@@ -10,7 +10,7 @@ namespace cablenet::accuracy {
 
 /// The steps of a run.
 struct Stepping {
-  double step = 0;                        ///< [s]; the first one where they are adaptive
+  double step = 0;                        ///< the length of a step, or of the first adaptive one [s]
   std::optional<double> tolerance = {};   ///< of adaptive steps [m]; none: equal steps
 };
 
@@ -68,7 +68,7 @@ bool is_open(const scene::Scene& scene);
 /// The scene with half the elements of each cable and twice the step.
 scene::Scene halved(const scene::Scene& scene);
 
-/// Those of a cable in the first coarse run.
+/// The elements of a cable in the first coarse run.
 constexpr double first_elements = 8;
 
 /// Whether rows at this time are not only for comparing: the scene asks for them, or a run ends there.

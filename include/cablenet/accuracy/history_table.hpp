@@ -18,7 +18,8 @@ struct HistoryTable {
 /// for what does not change.
 std::vector<double> scales(const HistoryTable& table);
 
-/// The root mean square over time of the difference of two histories, per column, over its scale.
+/// How far two histories differ: for each column the root mean square of the difference over time, divided by the
+/// column's scale.
 /// @param coarse  its rows are taken linearly between those of its times that `fine` does not have
 /// @param fine    whose range scales
 /// @pre both have the same columns
@@ -30,11 +31,12 @@ std::vector<double> differences(const HistoryTable& coarse, const HistoryTable& 
 std::vector<double> errors_at_first(const HistoryTable& run, const HistoryTable& finer);
 
 struct Estimate {
-  double error = 0;       ///< infinity where there is nothing to hold a run against
+  double error = 0;       ///< infinite where the run could not be compared with another one
   std::string quantity;   ///< the worst one
 };
 
-/// The largest error per column, and whose it is.  Where no column shows any, nothing is known.
+/// The largest of the columns' errors, and the column that has it.  If all are zero, the result is infinite: nothing in
+/// the history depends on the sizes, so that nothing is known of the error.
 Estimate largest(const std::vector<double>& errors, const HistoryTable& table);
 
 }   // namespace cablenet::accuracy

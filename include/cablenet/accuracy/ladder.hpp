@@ -10,7 +10,7 @@ struct Trial {
   bool is_done = false;
   bool has_start = true;   ///< An equilibrium to start from was found, or none was wanted.
   HistoryTable history = {};
-  double work = 0;   ///< iterations of Newton's method times unknowns
+  double work = 0;   ///< iterations of Newton's method, for comparing runs of the same mesh
 };
 
 /// Runs that differ in one size alone, from coarse to fine.  With the order p, what the finer of two runs errs by is
@@ -27,7 +27,7 @@ public:
   std::size_t count() const { return rungs_.size(); }
   double finest() const { return rungs_.back().size; }
   const Trial& finest_trial() const { return rungs_.back().trial; }
-  /// What the finest run errs by, per column; huge where there are not two.
+  /// The estimated error of the finest run, per column of the history.  Empty where there are not two runs.
   const std::vector<double>& errors() const { return errors_; }
   /// The largest of them.
   double error() const;

@@ -8,7 +8,7 @@
 
 /// How fine a run has to be for an accuracy.
 ///
-/// Coarse runs show what finer ones need.  With few elements the step is halved until its error is four times the
+/// Coarse runs are made first.  Each cable has few elements, and the step is halved until its error is four times the
 /// wanted one.  Adaptive steps are tried beside them.  With such steps the elements are doubled until their error is
 /// three times the wanted one.  Both errors go with the square of the size, so that the cheapest sizes for the accuracy
 /// follow.  The run with these is held against the finest one before, and its first tenth against one with half the
@@ -35,7 +35,7 @@ public:
   bool chooses_steps() const { return !scene_.is_static && scene_.time.step == 0; }
   /// Half the chosen sizes.
   Fineness finer() const;
-  /// What a run with the chosen sizes errs by, as far as they were chosen.
+  /// The error of a run with the chosen sizes.  Sizes that the scene gives are taken as exact.
   /// @param check  the first part of a run with half the sizes, where there is one
   Estimate estimate(const Trial& run, const Trial& check = {});
   /// An estimate is itself good to a factor of 1.5.

@@ -88,8 +88,8 @@ private:
   std::vector<End> own_ends_;
   std::vector<double> ends_;        ///< where the cables' ends are: first and last end by turns, three doubles each [m]
   std::vector<Vector3> lines_;      ///< per cable: the direction from its first to its last end
-  std::vector<Chord> chords_;       ///< per local element, at this instant
-  std::vector<double> strains_;     ///< per local element, at this instant
+  std::vector<Chord> chords_;       ///< of each local element at the instant that is looked at
+  std::vector<double> strains_;     ///< of each local element at the instant that is looked at
   std::vector<Sums> sums_;          ///< per cable
   std::vector<Quaternion> drawn_;   ///< attitude, per body of the network
   std::vector<double> turned_;      ///< as ShapeSummary; of this rank's bodies

@@ -85,7 +85,7 @@ struct Cable {
   std::vector<double> density;     ///< of elements, relative, in equal parts of the cable; empty: everywhere alike
   Shape shape = Shape::straight;
   std::vector<Vector3> polyline;        ///< when shape is polyline, from end to end
-  std::vector<Vector3> node_velocity;   ///< empty, or one per node, or evenly from end to end of a chosen mesh
+  std::vector<Vector3> node_velocity;   ///< empty; or a row per node; with has_chosen_mesh, rows at equal distances
 };
 
 struct Scene {

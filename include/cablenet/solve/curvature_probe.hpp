@@ -26,7 +26,7 @@ public:
   /// After a step.
   /// @param was_in_doubt  NewtonConvergence::was_in_doubt() of its last solve
   void end_solve(bool was_in_doubt);
-  /// By so many times what the last guess was off, that of the running solve is off; 1: it was not moved.
+  /// The error of the running solve's guess, over what it would be had the guess not been moved.
   double farther() const { return is_probing_ ? 1 + moved : 1; }
   /// What is known of the last guess is void.
   void forget();

@@ -13,8 +13,7 @@ public:
   static constexpr double most_of_noise = 8;
 
   /// Before a solve.
-  /// @param farther  by so many times what the last guess was off the first guess was moved on purpose; 1: not at all.
-  ///                 Such a solve shows what is hidden in the others
+  /// @param farther  CurvatureProbe::farther().  A solve whose guess was moved shows what is hidden in the others
   void begin_solve(double farther) { farther_ = farther; }
   /// @param iteration     corrections so far
   /// @param norm          2-norm of the residual after them [N]
@@ -26,7 +25,7 @@ public:
   bool is_at_rounding(int iteration, double norm, double correction, double noise, bool searches, bool same_tangent);
   /// The last residual's norm over that of the one before it; 0 after the first.
   double contraction() const { return contraction_; }
-  /// The first correction brought the residual below rounding, but more than rounding could be hidden in it.
+  /// The first correction brought the residual down to rounding.  It may have left an error that rounding hides.
   bool was_in_doubt() const { return was_in_doubt_; }
   void archive(Archive& archive);
 

@@ -27,8 +27,8 @@ struct StepFindings {
   double share() const;
   /// The step whose share would be this.  [s]
   double step_for(double wanted) const;
-  /// A longer path than so many times the way adds no more errors.  It is some ten periods, or fifteen rounds of a
-  /// circle.
+  /// A path longer than this many ways is counted as this long.  That is the path of some ten periods, or of fifteen
+  /// rounds of a circle.
   static constexpr double counted_ways = 32;
   /// The path, over the way.
   double ways() const { return way > 0 ? path / way : 0; }
